@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vera/formats/source_text.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <system_error>
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace vera {
+
+namespace {
+
+[[noreturn]] void throw_for(const std::string& path, int error) {
+    throw std::system_error(error, std::generic_category(), "cannot read '" + path + "'");
+}
+
+std::string everything_from(int file, const std::string& path) {
+    std::string text;
+    std::array<char, 65536> buffer;
+    while (true) {
+        const ssize_t count = read(file, buffer.data(), buffer.size());
+        if (count == 0)
+            return text;
+        if (count < 0) {
+            if (errno == EINTR)
+                continue;
+            throw_for(path, errno);
+        }
+        text.append(buffer.data(), static_cast<std::size_t>(count));
+    }
+}
+
+/// A file descriptor that is closed at the end of its scope.
+struct OpenFile {
+    int descriptor;
+    bool owned;
+
+    ~OpenFile() {
+        if (owned)
+            close(descriptor);
+    }
+};
+
+} // namespace
+
+SourceText::SourceText(const std::filesystem::path& path)
+    : name_(path.string()) {
+    const bool standard_input = name_ == "-";
+    if (standard_input)
+        name_ = "<standard input>";
+    const OpenFile file = {
+        standard_input ? STDIN_FILENO : open(path.c_str(), O_RDONLY | O_CLOEXEC), !standard_input};
+    if (file.descriptor < 0)
+        throw_for(name_, errno);
+    struct stat status = {};
+    if (fstat(file.descriptor, &status) != 0)
+        throw_for(name_, errno);
+    if (S_ISDIR(status.st_mode))
+        throw_for(name_, EISDIR);
+
+    const auto size = static_cast<std::size_t>(status.st_size);
+    if (S_ISREG(status.st_mode) && size > 0 && !standard_input) {
+        void* const mapping = mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file.descriptor, 0);
+        if (mapping != MAP_FAILED) {
+            madvise(mapping, size, MADV_SEQUENTIAL);
+            mapping_ = mapping;
+            data_ = static_cast<const char*>(mapping);
+            size_ = size;
+            return;
+        }
+    }
+    owned_ = everything_from(file.descriptor, name_);
+    data_ = owned_.data();
+    size_ = owned_.size();
+}
+
+SourceText::SourceText(std::string name, std::string text)
+    : name_(std::move(name))
+    , owned_(std::move(text))
+    , data_(owned_.data())
+    , size_(owned_.size()) {}
+
+SourceText::~SourceText() {
+    if (mapping_ != nullptr)
+        munmap(mapping_, size_);
+}
+
+SourcePlace SourceText::place(std::size_t offset) const {
+    const std::string_view before = text().substr(0, offset);
+    const auto lines = std::count(before.begin(), before.end(), '\n');
+    const std::size_t last = before.rfind('\n');
+    const std::size_t column =
+        last == std::string_view::npos ? before.size() : before.size() - last - 1;
+    return {name_, static_cast<std::uint64_t>(lines) + 1, column + 1};
+}
+
+std::string SourceText::line_at(std::size_t offset) const {
+    constexpr std::size_t longest = 4096;
+    const std::string_view before = text().substr(0, offset);
+    const std::size_t last = before.rfind('\n');
+    const std::size_t first = last == std::string_view::npos ? 0 : last + 1;
+    const std::size_t shown_from = first;
+    std::string_view line = text().substr(shown_from, longest);
+    line = line.substr(0, line.find('\n'));
+    if (!line.empty() && line.back() == '\r')
+        line.remove_suffix(1);
+    return std::string(line);
+}
+
+Diagnostic SourceText::diagnostic(
+    Severity severity,
+    std::size_t offset,
+    std::size_t length,
+    std::string problem,
+    std::string remedy) const {
+    return {
+        .severity = severity,
+        .place = place(offset),
+        .problem = std::move(problem),
+        .remedy = std::move(remedy),
+        .line = line_at(offset),
+        .length = length};
+}
+
+} // namespace vera

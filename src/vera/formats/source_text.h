@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "vera/base/diagnostic.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace vera {
+
+/// The bytes of an input file, and what a diagnostic needs to point into them. A regular file is
+/// mapped, not copied; "-" is standard input. Keeps no table of lines: places are worked out when
+/// they are asked for, which errors alone do.
+class SourceText {
+public:
+    /// Throws std::system_error, naming the path, when the file cannot be read.
+    explicit SourceText(const std::filesystem::path& path);
+    /// A text from memory, under a name.
+    SourceText(std::string name, std::string text);
+    ~SourceText();
+    SourceText(const SourceText&) = delete;
+    SourceText& operator=(const SourceText&) = delete;
+
+    const std::string& name() const { return name_; }
+
+    std::string_view text() const { return {data_, size_}; }
+
+    /// The place of the byte at an offset, or just behind the end.
+    SourcePlace place(std::size_t offset) const;
+
+    /// The whole line that holds the byte at the offset, without its end, at most 4096 bytes of it
+    /// and then none of what follows.
+    std::string line_at(std::size_t offset) const;
+
+    /// A diagnostic that marks length bytes at the offset.
+    Diagnostic diagnostic(
+        Severity severity,
+        std::size_t offset,
+        std::size_t length,
+        std::string problem,
+        std::string remedy = {}) const;
+
+private:
+    std::string name_;
+    std::string owned_;
+    const char* data_ = nullptr;
+    std::size_t size_ = 0;
+    void* mapping_ = nullptr;
+};
+
+} // namespace vera

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "vera/math/color.h"
+
+#include <cstdint>
+#include <optional>
+
+namespace vera {
+
+/// SKY, HORIZON and EARTH, with the defaults of missing ones filled in.
+struct Firmament {
+    Color sky;
+    Color horizon;
+    Color earth;
+};
+
+/// Anti-aliasing by controlled oversampling.
+struct Antialiasing {
+    bool on = true;
+    std::uint32_t samples = 16;   ///< rays of a refined pixel: a power of two from 2 to 256
+    double tolerance = 3.0 / 255; ///< difference of neighbours, in any colour, that refines a pixel
+};
+
+/// What a control file says. The members' values are those without any control file; what a control
+/// file does not name is off or at its default.
+struct PictureSettings {
+    std::uint32_t width = 512;      ///< RASTER, pixels across
+    std::uint32_t height = 512;     ///< RASTER, pixels down
+    std::uint32_t depth = 2;        ///< RTDEPTH, levels of the ray tree; 1 is the view ray alone
+    std::optional<double> exposure; ///< EXPMES: 0 measures only, (0, 1] scales the light
+    Color ambient;                  ///< AMBIENT
+    std::optional<Firmament> firmament;
+    bool shadows = true;                ///< SHADOWS
+    Antialiasing antialiasing;          ///< ANTI-ALIAS
+    std::optional<double> frame_margin; ///< automatic framing; the margin, as part of the picture
+    double pixel_aspect = 1; ///< width of a pixel by its height, used by automatic framing
+};
+
+} // namespace vera

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "vera/scene/camera.h"
+#include "vera/scene/geometry.h"
+#include "vera/scene/light.h"
+#include "vera/scene/material.h"
+#include "vera/scene/picture_settings.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace vera {
+
+/// Everything that a picture is made from, but the settings of its making. Plain values: the parts
+/// refer to one another by number.
+struct Scene {
+    std::optional<Camera> camera; ///< nothing: to be framed automatically
+    std::vector<PointLight> lights;
+    std::vector<Material> materials;
+    Geometry geometry;
+    std::vector<Geometry> subscenes; ///< never call themselves, not through others either
+    std::vector<std::string> files;  ///< that the scene was read from; items name them by number
+    PictureSettings defaults;        ///< used where no control file is given
+};
+
+/// Fills in what is derived in every geometry. Throws InputError when there are more than 2^62
+/// primitives, or 2^32 - 1 or more elements in one geometry.
+void number_primitives(Scene& scene);
+
+} // namespace vera
