@@ -23,10 +23,11 @@ enum class Severity { error, warning, note };
 /// One thing to tell the author of an input: where, what, and what to do about it.
 struct Diagnostic {
     Severity severity = Severity::error;
-    SourcePlace place;
-    std::string problem; ///< "expected the z of the sphere's center, found 'blue'"
-    std::string remedy;  ///< what to do; may be empty when the problem says it already
-    std::string line;    ///< the line of the input that place names, without its end; may be empty
+    SourcePlace place = {};
+    std::string problem = {}; ///< "expected the z of the sphere's center, found 'blue'"
+    std::string remedy = {};  ///< what to do; may be empty when the problem says it already
+    std::string line =
+        {}; ///< the line of the input that place names, without its end; may be empty
     std::uint64_t length = 1; ///< how many bytes of the line, from the column on, the caret marks
 
     friend bool operator==(const Diagnostic&, const Diagnostic&) = default;
