@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "vera/base/diagnostic.h"
+#include "vera/scene/picture_settings.h"
+
+#include <filesystem>
+#include <vector>
+
+namespace vera {
+
+/// The settings that a control file asks for. SHADOWS and ANTI-ALIAS are off unless it names them; what
+/// else it does not name is as in defaults, the scene's (of NFF scenes RTDEPTH is 5 and the firmament
+/// their background; of others both are as in PictureSettings). Throws InputError with all that is
+/// wrong, and std::system_error when the file cannot be read.
+PictureSettings read_control_file(
+    const std::filesystem::path& path,
+    const PictureSettings& defaults,
+    std::vector<Diagnostic>& warnings);
+
+} // namespace vera
