@@ -8,10 +8,15 @@ set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
 
+# The same bits on every CPU: no fused multiply-add, no reordered arithmetic. Whoever includes the
+# headers needs it too, which is why it is installed with the library.
+set(VERA_SAME_BITS -ffp-contract=off)
+
 add_library(vera_options INTERFACE)
 target_compile_options(vera_options INTERFACE
-    # The same bits on every CPU: no fused multiply-add, no reordered arithmetic.
-    -ffp-contract=off
+    ${VERA_SAME_BITS}
+    # Nobody replaces our functions at run time, so that calls within the library may be inlined.
+    -fno-semantic-interposition
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wdouble-promotion -Werror
     # GCC 12 gives this one for strings in designated initialisers, where nothing is amiss.
     $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
@@ -26,6 +31,11 @@ function(vera_folder name)
     if(FOLDER_SOURCES)
         add_library(vera_${name} STATIC ${FOLDER_SOURCES})
         target_link_libraries(vera_${name} PUBLIC vera_options ${FOLDER_LINKS})
+        if(VERA_BUILD_FUZZERS AND name MATCHES "^(formats|image)$")
+            # What reads strange bytes tells the fuzzer which branches it took.
+            target_compile_options(vera_${name} PRIVATE -fsanitize=fuzzer-no-link)
+        endif()
+        set_property(GLOBAL APPEND PROPERTY VERA_FOLDER_LIBRARIES vera_${name})
     else()
         add_library(vera_${name} INTERFACE)
         target_link_libraries(vera_${name} INTERFACE vera_options ${FOLDER_LINKS})
@@ -33,14 +43,25 @@ function(vera_folder name)
     add_library(vera::${name} ALIAS vera_${name})
 endfunction()
 
-# vera_tests(FOLDER LABEL SOURCES file... [LINKS target...])
+# vera_tests(FOLDER LABEL [THREADED] SOURCES file... [LINKS target...])
 # One GoogleTest program for the tests of a folder that carry a label: unit, agree, golden or door.
+# THREADED tests are also run under ThreadSanitizer, and carry a label that ends in _threaded.
 function(vera_tests folder label)
-    cmake_parse_arguments(TESTS "" "" "SOURCES;LINKS" ${ARGN})
+    cmake_parse_arguments(TESTS "THREADED" "" "SOURCES;LINKS" ${ARGN})
     set(target ${folder}_${label}_tests)
     add_executable(${target} ${TESTS_SOURCES})
     target_link_libraries(${target} PRIVATE ${TESTS_LINKS} GTest::gmock GTest::gtest_main)
     target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
     target_compile_definitions(${target} PRIVATE VERA_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-    gtest_discover_tests(${target} DISCOVERY_TIMEOUT 120 PROPERTIES LABELS ${label} TIMEOUT 600)
+
+    set(test_label ${label})
+    if(TESTS_THREADED)
+        # One word: gtest_discover_tests takes lists apart, and ctest -L finds parts of labels.
+        string(APPEND test_label "_threaded")
+        add_dependencies(threaded_tests ${target})
+    endif()
+    if(label MATCHES "^(unit|agree)$")
+        add_dependencies(asan_tests ${target})
+    endif()
+    gtest_discover_tests(${target} DISCOVERY_TIMEOUT 120 PROPERTIES LABELS "${test_label}" TIMEOUT 600)
 endfunction()

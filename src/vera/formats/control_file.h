@@ -9,10 +9,10 @@
 
 namespace vera {
 
-/// The settings that a control file asks for. SHADOWS and ANTI-ALIAS are off unless it names them; what
-/// else it does not name is as in defaults, the scene's (of NFF scenes RTDEPTH is 5 and the firmament
-/// their background; of others both are as in PictureSettings). Throws InputError with all that is
-/// wrong, and std::system_error when the file cannot be read.
+/// The settings that a control file asks for. SHADOWS and ANTI-ALIAS are off unless it names them;
+/// what else it does not name is as in defaults, the scene's (of NFF scenes RTDEPTH is 5 and the
+/// firmament their background; of others both are as in PictureSettings). Throws InputError with
+/// all that is wrong, and std::system_error when the file cannot be read.
 PictureSettings read_control_file(
     const std::filesystem::path& path,
     const PictureSettings& defaults,
