@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "vera/accel/ray_index.h"
+#include "vera/base/parallel.h"
+#include "vera/math/color.h"
+#include "vera/render/statistics.h"
+#include "vera/scene/light.h"
+#include "vera/scene/picture_settings.h"
+#include "vera/scene/scene.h"
+#include "vera/scene/surface.h"
+#include "vera/shade/lighting.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace vera {
+
+/// The light that EXPMES scales: the light sources and AMBIENT.
+struct Illumination {
+    std::vector<PointLight> lights;
+    Color ambient;
+};
+
+/// What all rays of a picture have in common. The scene and its index must outlive it.
+struct TracedScene {
+    const Scene& scene;
+    const RayIndex& index;
+    Illumination illumination;
+    std::optional<Firmament> firmament;
+    bool shadows = true;
+    bool luminosity = true;  ///< SDI and SAN count
+    std::uint32_t depth = 2; ///< levels of the ray tree
+    const CancelFlag* cancel = nullptr;
+};
+
+TracedScene traced_scene(
+    const Scene& scene,
+    const RayIndex& index,
+    const PictureSettings& settings,
+    const CancelFlag* cancel = nullptr);
+
+/// Traces whole generations of rays: all rays given, then all that those send on from mirrors and
+/// glass, and so on. A ray's colour is the sum of the lighting formula, its terms added in their
+/// order, and so depends on nothing but the ray. The buffers are kept from one call to the next;
+/// each thread uses a tracer of its own.
+class GenerationTracer {
+public:
+    /// The rays of a generation that are worked on at a time. A longer one is taken in parts, each
+    /// followed to its last descendant before the next, so that memory grows with the depth alone.
+    static constexpr std::size_t generation_size = 1024;
+
+    explicit GenerationTracer(const TracedScene& traced);
+
+    /// The first face that each ray meets, and where; the others' surface is left as it was.
+    void nearest(std::span<const QueryRay> rays, std::span<Hit> hits);
+
+    /// Where the rays of which the hits are meet a face.
+    void
+    surfaces(std::span<const QueryRay> rays, std::span<const Hit> hits, std::span<SurfacePoint> at);
+
+    /// What rays see that meet no face (hits[i] not found) or meet it at at[i].
+    void shade(
+        std::span<const QueryRay> rays,
+        std::span<const Hit> hits,
+        std::span<const SurfacePoint> at,
+        std::span<Color> colors);
+
+    /// What the rays see: all of the above.
+    void trace(std::span<const QueryRay> rays, std::span<Color> colors);
+
+    /// Counted since the tracer was made, the view and probe rays by those who send them.
+    RenderStatistics statistics;
+
+private:
+    /// A place that the rays of a generation meet, what it looks like so far, and who sees it.
+    struct LitPlace {
+        Incidence at;
+        const Material* material = nullptr;
+        const SurfacePoint* surface = nullptr;
+        LocalTerms terms;
+        std::uint32_t ray = 0;
+    };
+
+    /// A shadow ray's place, and what comes to it of the light if nothing is between.
+    struct Lit {
+        std::uint32_t place = 0;
+        LightTerms terms;
+    };
+
+    /// A ray of the next generation, and what sends it.
+    struct Child {
+        enum class Kind : std::uint8_t { mirrored, refracted, mirrored_and_totally_reflected };
+
+        std::uint32_t place = 0;
+        Kind kind = Kind::mirrored;
+    };
+
+    /// What is in work at one level of the ray tree.
+    struct Level {
+        std::vector<Hit> hits;
+        std::vector<SurfacePoint> surfaces;
+        std::vector<LitPlace> places;
+        std::vector<Child> children;
+        std::vector<QueryRay> child_rays;
+        std::vector<Color> child_colors;
+    };
+
+    void trace_part(std::uint32_t level, std::span<const QueryRay> rays, std::span<Color> colors);
+    void shade_part(
+        std::uint32_t level,
+        std::span<const QueryRay> rays,
+        std::span<const Hit> hits,
+        std::span<const SurfacePoint> at,
+        std::span<Color> colors);
+    void find_places(
+        Level& level,
+        std::span<const QueryRay> rays,
+        std::span<const Hit> hits,
+        std::span<const SurfacePoint> at,
+        std::span<Color> colors) const;
+    void light_places(std::vector<LitPlace>& places, const PointLight& light);
+    void find_children(Level& level);
+    void send(Level& level, std::uint32_t place, Child::Kind kind, Vec3 direction) const;
+    void add_children(const Level& level, std::span<Color> colors) const;
+    Level& level_buffers(std::uint32_t level);
+
+    const TracedScene& traced_;
+    std::vector<std::unique_ptr<Level>> levels_;
+    std::vector<Lit> lit_;
+    std::vector<QueryRay> shadow_rays_;
+    std::vector<Color> visibilities_;
+};
+
+} // namespace vera

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vera/render/render_scene.h"
+
+#include "vera/image/develop.h"
+#include "vera/render/generations.h"
+#include "vera/render/raster.h"
+#include "vera/render/tiles.h"
+#include "vera/render/workspaces.h"
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+namespace vera {
+
+namespace {
+
+/// A tile is a generation of view rays: small enough that its buffers stay in the cache.
+constexpr std::size_t tile_side = 32;
+
+/// What a thread needs for the tiles that it renders, one after another.
+struct TileWork {
+    GenerationTracer tracer;
+    std::vector<QueryRay> rays;
+    std::vector<Color> colors;
+};
+
+void render_tile(const Raster& raster, const Tile& tile, TileWork& work, Image& image) {
+    view_rays(raster, tile, work.rays);
+    work.colors.resize(work.rays.size());
+    work.tracer.trace(work.rays, work.colors);
+    work.tracer.statistics.view_rays += work.rays.size();
+    for (std::size_t row = 0; row < tile.height; ++row)
+        develop(
+            std::span<const Color>(work.colors).subspan(row * tile.width, tile.width),
+            image,
+            tile.x,
+            tile.y + row);
+}
+
+/// One ray a pixel.
+RenderStatistics
+render_centers(const TracedScene& traced, const Raster& raster, Image& image, ProgressMeter& done) {
+    const Tiling tiling = {raster.width, raster.height, tile_side};
+    Workspaces<TileWork> workspaces([&] {
+        return std::unique_ptr<TileWork>(new TileWork{GenerationTracer(traced), {}, {}});
+    });
+    parallel_ranges(tiling.count(), 1, [&](std::size_t first, std::size_t last) {
+        workspaces.lend([&](TileWork& work) {
+            for (std::size_t number = first; number < last; ++number) {
+                const Tile tile = tiling.tile(number);
+                render_tile(raster, tile, work, image);
+                done.add(static_cast<double>(tile.width * tile.height));
+            }
+        });
+    });
+
+    RenderStatistics statistics;
+    workspaces.for_each([&](const TileWork& work) { statistics += work.tracer.statistics; });
+    return statistics;
+}
+
+} // namespace
+
+RenderResult render_scene(
+    const Scene& scene,
+    const Camera& camera,
+    const RayIndex& index,
+    const PictureSettings& settings,
+    SampleType sample_type,
+    const Progress& progress,
+    const CancelFlag* cancel) {
+    RenderResult result;
+    TracedScene traced = traced_scene(scene, index, settings, cancel);
+    if (settings.exposure)
+        result.exposure = expose(traced, camera, *settings.exposure, result.statistics);
+
+    const Raster raster = {camera, settings.width, settings.height};
+    result.image = blank_image(raster.width, raster.height, sample_type);
+    ProgressMeter done(
+        progress, static_cast<double>(raster.width) * static_cast<double>(raster.height));
+    result.statistics += render_centers(traced, raster, result.image, done);
+    return result;
+}
+
+} // namespace vera
