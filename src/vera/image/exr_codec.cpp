@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vera/base/output_file.h"
+#include "vera/image/codecs.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+#include <system_error>
+
+#include <ImfChannelList.h>
+#include <ImfChromaticities.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfIO.h>
+#include <ImfInputFile.h>
+#include <ImfOutputFile.h>
+#include <ImfStandardAttributes.h>
+#include <ImfStringAttribute.h>
+#include <half.h>
+
+namespace vera::detail {
+
+namespace {
+
+constexpr std::array channels = {"R", "G", "B"};
+
+/// Takes what OpenEXR writes, which goes back at the end to fill in where each block of rows lies.
+/// OpenEXR swallows an error of that last step: it is kept here.
+class ExrTarget : public Imf::OStream {
+public:
+    explicit ExrTarget(const std::string& name)
+        : Imf::OStream(name.c_str()) {}
+
+    void write(const char* data, int count) override {
+        const auto bytes = std::as_bytes(std::span(data, static_cast<std::size_t>(count)));
+        try {
+            if (position_ == size_) {
+                append(bytes);
+                size_ += bytes.size();
+            } else {
+                overwrite(position_, bytes);
+                size_ = std::max(size_, position_ + bytes.size());
+            }
+        } catch (...) {
+            if (!failure_)
+                failure_ = std::current_exception();
+            throw;
+        }
+        position_ += bytes.size();
+    }
+
+    std::uint64_t tellp() override { return position_; }
+
+    void seekp(std::uint64_t position) override { position_ = position; }
+
+    void throw_if_failed() const {
+        if (failure_)
+            std::rethrow_exception(failure_);
+    }
+
+protected:
+    virtual void append(std::span<const std::byte> bytes) = 0;
+    virtual void overwrite(std::uint64_t position, std::span<const std::byte> bytes) = 0;
+
+private:
+    std::uint64_t position_ = 0;
+    std::uint64_t size_ = 0;
+    std::exception_ptr failure_;
+};
+
+class SeekableTarget : public ExrTarget {
+public:
+    explicit SeekableTarget(OutputFile& file)
+        : ExrTarget(file.name())
+        , file_(file) {}
+
+private:
+    void append(std::span<const std::byte> bytes) override { file_.write(bytes); }
+
+    void overwrite(std::uint64_t position, std::span<const std::byte> bytes) override {
+        file_.write_at(position, bytes);
+    }
+
+    OutputFile& file_;
+};
+
+/// For a pipe, which cannot go back: everything waits in a file without a name.
+class SpooledTarget : public ExrTarget {
+public:
+    explicit SpooledTarget(const std::string& name)
+        : ExrTarget(name)
+        , spool_(std::tmpfile()) {
+        if (spool_ == nullptr)
+            fail();
+    }
+
+    ~SpooledTarget() override {
+        if (spool_ != nullptr)
+            std::fclose(spool_);
+    }
+
+    SpooledTarget(const SpooledTarget&) = delete;
+    SpooledTarget& operator=(const SpooledTarget&) = delete;
+
+    void copy_to(OutputFile& file) {
+        std::rewind(spool_);
+        std::vector<std::byte> buffer(std::size_t{1} << 16);
+        while (const std::size_t count = std::fread(buffer.data(), 1, buffer.size(), spool_))
+            file.write(std::span(buffer).first(count));
+        if (std::ferror(spool_) != 0)
+            fail();
+    }
+
+private:
+    void append(std::span<const std::byte> bytes) override {
+        if (std::fseek(spool_, 0, SEEK_END) != 0)
+            fail();
+        put(bytes);
+    }
+
+    void overwrite(std::uint64_t position, std::span<const std::byte> bytes) override {
+        if (std::fseek(spool_, static_cast<long>(position), SEEK_SET) != 0)
+            fail();
+        put(bytes);
+    }
+
+    void put(std::span<const std::byte> bytes) {
+        if (std::fwrite(bytes.data(), 1, bytes.size(), spool_) != bytes.size())
+            fail();
+    }
+
+    [[noreturn]] void fail() const {
+        throw std::system_error(
+            errno,
+            std::generic_category(),
+            std::string("cannot write ") + fileName()
+                + "; an EXR picture waits in the folder for temporary files when it goes to a "
+                  "pipe");
+    }
+
+    std::FILE* spool_;
+};
+
+class ExrSource : public Imf::IStream {
+public:
+    ExrSource(std::span<const std::byte> bytes, const std::string& name)
+        : Imf::IStream(name.c_str())
+        , bytes_(bytes) {}
+
+    bool read(char* data, int count) override {
+        const auto size = static_cast<std::size_t>(count);
+        if (count < 0 || position_ > bytes_.size() || bytes_.size() - position_ < size)
+            throw std::runtime_error("it ends early");
+        std::memcpy(data, bytes_.data() + position_, size);
+        position_ += size;
+        return position_ < bytes_.size();
+    }
+
+    std::uint64_t tellg() override { return position_; }
+
+    void seekg(std::uint64_t position) override { position_ = position; }
+
+private:
+    std::span<const std::byte> bytes_;
+    std::uint64_t position_ = 0;
+};
+
+Imf::Header header_for(const Image& image, const PictureMetadata& metadata, Imf::PixelType type) {
+    Imf::Header header(static_cast<int>(image.width), static_cast<int>(image.height));
+    header.compression() = Imf::ZIP_COMPRESSION;
+    for (const char* channel : channels)
+        header.channels().insert(channel, Imf::Channel(type));
+    // Those of sRGB, which are those of ITU-R BT.709 and OpenEXR's default.
+    Imf::addChromaticities(header, Imf::Chromaticities());
+    constexpr std::size_t longest_name = 255;
+    for (const auto& [name, value] : metadata) {
+        std::string attribute = plain_name(name, longest_name);
+        // A name that OpenEXR uses for something else would change the picture.
+        while (header.find(attribute.c_str()) != header.end())
+            attribute.insert(0, "vera_");
+        header.insert(attribute.c_str(), Imf::StringAttribute(value));
+    }
+    return header;
+}
+
+/// A frame buffer over rows of three samples side by side, the first pixel being (x, y) to OpenEXR.
+Imf::FrameBuffer frame_buffer(
+    const void* samples, Imf::PixelType type, std::size_t width, std::int64_t x, std::int64_t y) {
+    const std::size_t sample_bytes = type == Imf::HALF ? 2 : 4;
+    const std::size_t pixel_bytes = 3 * sample_bytes;
+    const std::size_t row_bytes = pixel_bytes * width;
+    Imf::FrameBuffer buffer;
+    for (std::size_t i = 0; i < channels.size(); ++i) {
+        // OpenEXR adds what is subtracted here. An address may wrap round on the way where a
+        // pointer may not.
+        const std::uintptr_t address = reinterpret_cast<std::uintptr_t>(samples) + i * sample_bytes
+            - static_cast<std::uintptr_t>(x) * pixel_bytes
+            - static_cast<std::uintptr_t>(y) * row_bytes;
+        buffer.insert(
+            channels[i],
+            Imf::Slice(type, reinterpret_cast<char*>(address), pixel_bytes, row_bytes));
+    }
+    return buffer;
+}
+
+/// The nearest number of 16 bits; what is too large for any becomes the largest, not infinite.
+half nearest_half(float value) {
+    const auto largest = static_cast<float>(HALF_MAX);
+    return half(std::isfinite(value) ? std::clamp(value, -largest, largest) : value);
+}
+
+void encode_pixels(
+    Imf::OStream& target, const Image& image, const PictureMetadata& metadata, ExrSamples samples) {
+    const auto type = samples == ExrSamples::half ? Imf::HALF : Imf::FLOAT;
+    Imf::OutputFile output(target, header_for(image, metadata, type), 0);
+    const auto& floats = std::get<std::vector<float>>(image.samples);
+    if (type == Imf::FLOAT) {
+        output.setFrameBuffer(frame_buffer(floats.data(), type, image.width, 0, 0));
+        output.writePixels(static_cast<int>(image.height));
+        return;
+    }
+    constexpr std::size_t block = 16; // rows that OpenEXR compresses together
+    std::vector<half> halves(3 * image.width * std::min(block, image.height));
+    for (std::size_t y = 0; y < image.height; y += block) {
+        const std::size_t rows = std::min(block, image.height - y);
+        const auto first = floats.begin() + static_cast<std::ptrdiff_t>(3 * image.width * y);
+        std::transform(
+            first,
+            first + static_cast<std::ptrdiff_t>(3 * image.width * rows),
+            halves.begin(),
+            nearest_half);
+        output.setFrameBuffer(
+            frame_buffer(halves.data(), type, image.width, 0, static_cast<std::int64_t>(y)));
+        output.writePixels(static_cast<int>(rows));
+    }
+}
+
+void encode(
+    ExrTarget& target, const Image& image, const PictureMetadata& metadata, ExrSamples samples) {
+    try {
+        encode_pixels(target, image, metadata, samples);
+    } catch (const std::exception& error) {
+        // OpenEXR has given errors of ours other words.
+        target.throw_if_failed();
+        throw std::runtime_error(
+            std::string("cannot write ") + target.fileName() + ": " + error.what());
+    }
+    target.throw_if_failed();
+}
+
+std::size_t side(int first, int last) {
+    return static_cast<std::size_t>(std::int64_t{last} - first + 1);
+}
+
+} // namespace
+
+void write_exr(
+    const Image& image, OutputFile& file, const PictureMetadata& metadata, ExrSamples samples) {
+    constexpr auto largest_side = static_cast<std::size_t>(std::numeric_limits<int>::max() / 16);
+    if (image.width > largest_side || image.height > largest_side)
+        throw std::runtime_error(
+            "cannot write " + file.name() + ": an EXR picture has at most 134217727 pixels a side");
+    if (file.seekable()) {
+        SeekableTarget target(file);
+        encode(target, image, metadata, samples);
+    } else {
+        SpooledTarget target(file.name());
+        encode(target, image, metadata, samples);
+        target.copy_to(file);
+    }
+}
+
+Image read_exr(std::span<const std::byte> bytes, const std::string& name) {
+    ExrSource source(bytes, name);
+    std::unique_ptr<Imf::InputFile> input;
+    try {
+        input = std::make_unique<Imf::InputFile>(source, 0);
+    } catch (const std::exception& error) {
+        throw_damaged(name, error.what());
+    }
+    const Imath::Box2i window = input->header().dataWindow();
+    const std::size_t width = side(window.min.x, window.max.x);
+    const std::size_t height = side(window.min.y, window.max.y);
+    check_plausible(width, height, bytes.size(), name);
+    for (const char* channel : channels)
+        if (input->header().channels().findChannel(channel) == nullptr)
+            throw_damaged(name, std::string("it has no channel ") + channel);
+    Image image = blank_image(width, height, SampleType::float32);
+    const float* samples = std::get<std::vector<float>>(image.samples).data();
+    try {
+        input->setFrameBuffer(frame_buffer(samples, Imf::FLOAT, width, window.min.x, window.min.y));
+        input->readPixels(window.min.y, window.max.y);
+    } catch (const std::exception& error) {
+        throw_damaged(name, error.what());
+    }
+    return image;
+}
+
+} // namespace vera::detail

@@ -1,0 +1,331 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vera/base/diagnostic.h"
+#include "vera/image/image_file.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <random>
+#include <system_error>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace vera {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::string_literals;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+constexpr ImageFileFormat all_formats[] = {
+    ImageFileFormat::png8,
+    ImageFileFormat::png16,
+    ImageFileFormat::exr_half,
+    ImageFileFormat::exr_float,
+    ImageFileFormat::jpeg,
+    ImageFileFormat::ppm8,
+    ImageFileFormat::ppm16,
+    ImageFileFormat::pfm};
+
+/// An empty folder for a test, removed at its end.
+class ImageFile : public testing::Test {
+protected:
+    ImageFile() {
+        std::string name = (fs::temp_directory_path() / "vera-image-XXXXXX").native();
+        folder_ = mkdtemp(name.data());
+    }
+
+    ~ImageFile() override { fs::remove_all(folder_); }
+
+    fs::path folder_;
+};
+
+std::string content(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::span<const std::byte> as_bytes(const std::string& text) {
+    return std::as_bytes(std::span(text));
+}
+
+/// Smooth in one direction, random in the other; halves hold its floats exactly.
+Image sample_image(SampleType type, std::size_t width, std::size_t height) {
+    std::mt19937 random(7);
+    Image image = blank_image(width, height, type);
+    std::visit(
+        [&](auto& samples) {
+            using Sample = typename std::decay_t<decltype(samples)>::value_type;
+            for (std::size_t i = 0; i < samples.size(); ++i) {
+                const auto value = static_cast<double>(i / 3 % width + random() % 8);
+                if constexpr (std::is_same_v<Sample, float>)
+                    samples[i] = static_cast<float>(value / 16 - 1);
+                else
+                    samples[i] = static_cast<Sample>(value * (sizeof(Sample) == 1 ? 3 : 777));
+            }
+        },
+        image.samples);
+    return image;
+}
+
+TEST_F(ImageFile, ComesBackAsItWasWrittenInEveryFormatWithoutLoss) {
+    const fs::path path = folder_ / "picture";
+    for (const ImageFileFormat format : all_formats) {
+        if (format == ImageFileFormat::jpeg)
+            continue;
+        for (const std::size_t height : {1, 16, 37}) {
+            const Image image = sample_image(sample_type(format), 53, height);
+            write_image(image, path, format, {{"Software", "vera"}});
+            const Image read = read_image(path);
+            ASSERT_EQ(read.width, image.width);
+            ASSERT_EQ(read.height, image.height);
+            ASSERT_EQ(read.samples, image.samples) << static_cast<int>(format);
+        }
+    }
+}
+
+TEST_F(ImageFile, ComesBackAlmostAsItWasWrittenFromJpeg) {
+    Image image = blank_image(40, 30, SampleType::integer8);
+    auto& samples = std::get<std::vector<std::uint8_t>>(image.samples);
+    for (std::size_t i = 0; i < samples.size(); ++i)
+        samples[i] = static_cast<std::uint8_t>(5 * (i / 3 % 40) + 40 * (i % 3 == 1 ? 1 : 0));
+    write_image(image, folder_ / "a.jpg", ImageFileFormat::jpeg);
+    const Image read = read_image(folder_ / "a.jpg");
+    const auto& read_samples = std::get<std::vector<std::uint8_t>>(read.samples);
+    ASSERT_EQ(read_samples.size(), samples.size());
+    for (std::size_t i = 0; i < samples.size(); ++i)
+        ASSERT_NEAR(read_samples[i], samples[i], 4);
+}
+
+TEST_F(ImageFile, HasTheSameBytesEachTime) {
+    for (const ImageFileFormat format : all_formats) {
+        const Image image = sample_image(sample_type(format), 64, 40);
+        write_image(image, folder_ / "a", format, {{"Title", "x"}});
+        write_image(image, folder_ / "b", format, {{"Title", "x"}});
+        EXPECT_EQ(content(folder_ / "a"), content(folder_ / "b")) << static_cast<int>(format);
+    }
+}
+
+TEST_F(ImageFile, LeavesNothingButThePicture) {
+    for (const ImageFileFormat format : all_formats)
+        write_image(sample_image(sample_type(format), 5, 5), folder_ / "picture", format);
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1);
+}
+
+TEST_F(ImageFile, IsAPpmByteForByte) {
+    Image image = {2, 1, std::vector<std::uint8_t>{1, 2, 3, 254, 255, 0}};
+    write_image(image, folder_ / "a.ppm", ImageFileFormat::ppm8, {{"Software", "vera 1\nx"}});
+    EXPECT_EQ(
+        content(folder_ / "a.ppm"),
+        "P6\n# Software: vera 1\n# x\n2 1\n255\n\x01\x02\x03\xfe\xff\x00"s);
+
+    image.samples = std::vector<std::uint16_t>{1, 256, 65535, 0, 0x1234, 7};
+    write_image(image, folder_ / "b.ppm", ImageFileFormat::ppm16);
+    EXPECT_EQ(
+        content(folder_ / "b.ppm"),
+        "P6\n2 1\n65535\n\x00\x01\x01\x00\xff\xff\x00\x00\x12\x34\x00\x07"s);
+}
+
+TEST_F(ImageFile, IsAPfmFromTheBottomUp) {
+    const Image image = {1, 2, std::vector<float>{0, 0, 0, 1, 1, 1}};
+    write_image(image, folder_ / "a.pfm", ImageFileFormat::pfm);
+    const std::string one = "\x00\x00\x80\x3f"s;
+    EXPECT_EQ(
+        content(folder_ / "a.pfm"), "PF\n1 2\n-1.0\n" + one + one + one + std::string(12, '\0'));
+}
+
+TEST_F(ImageFile, CarriesItsMetadata) {
+    const PictureMetadata metadata = {
+        {"Software", "vera 0.1.0"}, {"Settings", "--depth 5"}, {"Author", "J\xc3\xb6rg"}};
+    for (const ImageFileFormat format : all_formats) {
+        if (format == ImageFileFormat::pfm)
+            continue;
+        write_image(sample_image(sample_type(format), 9, 9), folder_ / "a", format, metadata);
+        const std::string bytes = content(folder_ / "a");
+        for (const auto& [name, value] : metadata) {
+            EXPECT_THAT(bytes, HasSubstr(name)) << static_cast<int>(format);
+            EXPECT_THAT(bytes, HasSubstr(value)) << static_cast<int>(format);
+        }
+    }
+}
+
+TEST_F(ImageFile, TakesMetadataThatAFormatHasNoNameFor) {
+    const PictureMetadata metadata = {
+        {"", "nameless"},
+        {std::string(300, 'n'), "long"},
+        {"channels", "what EXR uses for itself"},
+        {"channels", "again"},
+        {"line\nbreak", std::string(200'000, 'v')}};
+    for (const ImageFileFormat format : all_formats) {
+        const Image image = sample_image(sample_type(format), 9, 9);
+        write_image(image, folder_ / "a", format, metadata);
+        EXPECT_EQ(read_image(folder_ / "a").width, 9U) << static_cast<int>(format);
+    }
+}
+
+TEST_F(ImageFile, DeclaresSrgbInPngAndItsPrimariesInExr) {
+    write_image(sample_image(SampleType::integer8, 2, 2), folder_ / "a", ImageFileFormat::png8);
+    EXPECT_THAT(content(folder_ / "a"), HasSubstr("sRGB"));
+    EXPECT_THAT(content(folder_ / "a"), HasSubstr("gAMA"));
+    EXPECT_THAT(content(folder_ / "a"), testing::Not(HasSubstr("tIME")));
+    write_image(sample_image(SampleType::float32, 2, 2), folder_ / "b", ImageFileFormat::exr_half);
+    EXPECT_THAT(content(folder_ / "b"), HasSubstr("chromaticities"));
+}
+
+TEST_F(ImageFile, LimitsHalvesToTheLargest) {
+    const Image image = {2, 1, std::vector<float>{1e9F, -1e9F, 65504, 65519, 0.1F, 0}};
+    write_image(image, folder_ / "a.exr", ImageFileFormat::exr_half);
+    const Image read = read_image(folder_ / "a.exr");
+    EXPECT_THAT(
+        std::get<std::vector<float>>(read.samples),
+        testing::ElementsAre(65504, -65504, 65504, 65504, 0.0999755859375F, 0));
+}
+
+TEST_F(ImageFile, GoesToAPipeAsToAFile) {
+    for (const ImageFileFormat format : all_formats) {
+        const Image image = sample_image(sample_type(format), 31, 40);
+        write_image(image, folder_ / "file", format);
+        ASSERT_EQ(mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+        const std::string command = "cat " + (folder_ / "pipe").native() + " > "
+            + (folder_ / "copy").native() + " & echo $!";
+        std::FILE* shell = popen(command.c_str(), "r");
+        write_image(image, folder_ / "pipe", format);
+        pclose(shell);
+        // The reader may still be writing what it has read.
+        for (int i = 0; i < 500 && content(folder_ / "copy") != content(folder_ / "file"); ++i)
+            usleep(10'000);
+        EXPECT_EQ(content(folder_ / "copy"), content(folder_ / "file")) << static_cast<int>(format);
+        fs::remove(folder_ / "pipe");
+    }
+}
+
+TEST_F(ImageFile, SaysThatADeviceIsFull) {
+    for (const ImageFileFormat format : all_formats)
+        try {
+            write_image(sample_image(sample_type(format), 31, 40), "/dev/full", format);
+            FAIL() << static_cast<int>(format);
+        } catch (const std::system_error& error) {
+            EXPECT_EQ(error.code(), std::errc::no_space_on_device);
+            EXPECT_THAT(error.what(), HasSubstr("cannot write '/dev/full'; free some space"));
+        }
+}
+
+TEST_F(ImageFile, TooWideForJpegIsRefusedWithAnAlternative) {
+    const Image image = blank_image(65501, 1, SampleType::integer8);
+    try {
+        write_image(image, folder_ / "a.jpg", ImageFileFormat::jpeg);
+        FAIL();
+    } catch (const std::runtime_error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("at most 65500 pixels a side; choose PNG or EXR"));
+    }
+    EXPECT_TRUE(fs::is_empty(folder_));
+}
+
+TEST_F(ImageFile, CutShortIsAnErrorWhereverItIsCut) {
+    for (const ImageFileFormat format : all_formats) {
+        const std::string name = "cut " + std::to_string(static_cast<int>(format));
+        write_image(sample_image(sample_type(format), 20, 20), folder_ / "a", format);
+        const std::string whole = content(folder_ / "a");
+        // A JPEG may do without its last marker, and all EXR pixels come before its end.
+        for (std::size_t size = 0; size + 2 < whole.size(); size += 1 + whole.size() / 200)
+            try {
+                decoded_image(as_bytes(whole.substr(0, size)), name);
+                FAIL() << name << ' ' << size << " of " << whole.size();
+            } catch (const InputError& error) {
+                ASSERT_EQ(error.diagnostics().size(), 1U);
+                ASSERT_EQ(error.diagnostics()[0].place.file, name);
+                ASSERT_THAT(
+                    error.diagnostics()[0].problem,
+                    StartsWith("this is no picture that can be read: "));
+            }
+    }
+}
+
+TEST_F(ImageFile, DamagedAnywhereGivesAPictureOrAnErrorAndNothingElse) {
+    std::mt19937 random(3);
+    for (const ImageFileFormat format : all_formats) {
+        write_image(sample_image(sample_type(format), 20, 20), folder_ / "a", format);
+        const std::string whole = content(folder_ / "a");
+        for (int round = 0; round < 300; ++round) {
+            std::string damaged = whole;
+            for (int i = 0; i <= round % 3; ++i)
+                damaged
+                    [random() % std::min<std::size_t>(damaged.size(), round % 2 ? 400 : 1 << 30)] =
+                        static_cast<char>("\x00\x01\x7f\x80\xff"[random() % 5]);
+            try {
+                const Image image = decoded_image(as_bytes(damaged), "damaged");
+                EXPECT_GT(image.width * image.height, 0U);
+            } catch (const std::runtime_error&) {
+            }
+        }
+    }
+}
+
+TEST(DecodedImage, NamesWhatItCannotRead) {
+    const auto problem = [](const std::string& bytes) {
+        try {
+            decoded_image(as_bytes(bytes), "a.ppm");
+        } catch (const InputError& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    EXPECT_THAT(
+        problem(""),
+        HasSubstr("a.ppm: this is no picture that can be read: it is "
+                  "empty"));
+    EXPECT_THAT(problem("GIF89a"), HasSubstr("its first bytes are those of no format"));
+    EXPECT_THAT(
+        problem("P6 2 x 255\n"), HasSubstr("expected its height, from 1 to 2147483647, found 'x'"));
+    EXPECT_THAT(
+        problem("P6 2 2 255\nabc"),
+        HasSubstr("it ends early: 2 x 2 pixels of 3 bytes do not fit into the 3 bytes"));
+    EXPECT_THAT(problem("P6 1 1 7\n\x08\x01\x01"), HasSubstr("a sample is 8, more than its white"));
+    EXPECT_THAT(problem("PF 1 1 x\n"), HasSubstr("expected its scale"));
+    EXPECT_THAT(problem("P6 2147483647 2147483647 255\nabc"), HasSubstr("it ends early"));
+}
+
+TEST(DecodedImage, StretchesAPpmToItsWhite) {
+    const std::string bytes = "P6#c\n1 # 7\n1 15 \x00\x07\x0f"s;
+    EXPECT_EQ(
+        std::get<std::vector<std::uint8_t>>(decoded_image(as_bytes(bytes), "a").samples),
+        (std::vector<std::uint8_t>{0, 119, 255}));
+}
+
+TEST(DecodedImage, ReadsPfmOfBothByteOrders) {
+    const std::string bytes = "PF 1 1 1.0\n"
+        + std::string("\x3f\x80\x00\x00\xbf\x80\x00\x00"
+                      "\x40\x00\x00\x00",
+                      12);
+    EXPECT_EQ(
+        std::get<std::vector<float>>(decoded_image(as_bytes(bytes), "a").samples),
+        (std::vector<float>{1, -1, 2}));
+}
+
+TEST(FormatFromExtension, KnowsTheFormatsInAnyCase) {
+    EXPECT_EQ(format_from_extension("a/b.png"), ImageFileFormat::png8);
+    EXPECT_EQ(format_from_extension("b.EXR"), ImageFileFormat::exr_half);
+    EXPECT_EQ(format_from_extension("b.JPeG"), ImageFileFormat::jpeg);
+    EXPECT_EQ(format_from_extension("b.jpg"), ImageFileFormat::jpeg);
+    EXPECT_EQ(format_from_extension("x.y.ppm"), ImageFileFormat::ppm8);
+    EXPECT_EQ(format_from_extension("b.pfm"), ImageFileFormat::pfm);
+    for (const char* other : {"png", "a.pn", "a.apng", "-", "", "a.png16", "a.", ".png"})
+        EXPECT_EQ(format_from_extension(other), std::nullopt) << other;
+}
+
+TEST(FormatFromName, KnowsEveryNameItLists) {
+    EXPECT_EQ(format_names(), "png, png16, exr, exr-float, jpeg, ppm, ppm16, pfm");
+    EXPECT_EQ(format_from_name("png16"), ImageFileFormat::png16);
+    EXPECT_EQ(format_from_name("EXR-float"), ImageFileFormat::exr_float);
+    EXPECT_EQ(format_from_name("jpg"), ImageFileFormat::jpeg);
+    EXPECT_EQ(format_from_name("gif"), std::nullopt);
+}
+
+} // namespace
+} // namespace vera
