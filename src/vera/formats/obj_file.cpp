@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vera/formats/mesh_builder.h"
+#include "vera/formats/mesh_file.h"
+#include "vera/formats/text_cursor.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include <fmt/format.h>
+
+namespace vera {
+
+namespace {
+
+constexpr std::array<std::string_view, 30> passed_over = {
+    "vt",     "vp",         "g",      "o",   "s",         "usemtl", "mtllib",   "usemap",
+    "maplib", "p",          "l",      "mg",  "bevel",     "lod",    "d_interp", "c_interp",
+    "call",   "shadow_obj", "cstype", "deg", "trace_obj", "bmat",   "step",     "parm",
+    "trim",   "hole",       "scrv",   "sp",  "end",       "con"};
+
+constexpr std::array<std::string_view, 3> free_form = {"curv", "curv2", "surf"};
+
+template <std::size_t Count>
+bool is_one_of(const std::array<std::string_view, Count>& words, std::string_view word) {
+    return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+class ObjReader {
+public:
+    explicit ObjReader(const SourceText& source)
+        : report_(source)
+        , cursor_(report_, TextCursor::Lines::continue_behind_backslash)
+        , builder_(report_) {}
+
+    Mesh read(std::vector<Diagnostic>& warnings) {
+        reserve();
+        while (!cursor_.at_end() && !report_.full()) {
+            cursor_.skip_blanks();
+            // Not even a backslash at its end continues a comment: "# from C:\\models\\".
+            if (cursor_.peek() == '#') {
+                cursor_.skip_comment();
+                continue;
+            }
+            read_statement();
+            cursor_.skip_line();
+        }
+        warn();
+        return builder_.finish(warnings);
+    }
+
+private:
+    /// Counts the vertices and faces beforehand: that takes a small part of the time that reading
+    /// them takes, and nothing has to be copied while the mesh grows.
+    void reserve() {
+        std::size_t positions = 0;
+        std::size_t triangles = 0;
+        TextCursor counter = cursor_;
+        for (; !counter.at_end(); counter.skip_line()) {
+            const char first = counter.peek();
+            if (first != 'v' && first != 'f')
+                continue;
+            counter.step();
+            if (counter.peek() != ' ')
+                continue;
+            if (first == 'v')
+                ++positions;
+            else
+                ++triangles;
+        }
+        builder_.reserve(positions, triangles);
+    }
+
+    void read_statement() {
+        const std::size_t start = cursor_.offset();
+        const std::string_view keyword = cursor_.word();
+        cursor_.pass(keyword);
+        if (keyword == "v") {
+            read_point(builder_.mesh().positions, "the vertex", start);
+        } else if (keyword == "f" || keyword == "fo") {
+            read_face(start);
+        } else if (keyword == "vn") {
+            read_point(builder_.mesh().normals, "the normal", start);
+        } else if (!keyword.empty()) {
+            if (is_one_of(free_form, keyword))
+                free_form_.add(start);
+            else if (!is_one_of(passed_over, keyword))
+                unknown_.add(start);
+        }
+    }
+
+    /// What follows a vertex's coordinates on the line, a weight or a colour, is passed over.
+    void read_point(std::vector<Vec3>& points, std::string_view what, std::size_t start) {
+        Vec3 point;
+        // One that cannot be read is kept all the same, so that those behind it keep their numbers.
+        cursor_.take_point(point, what);
+        if (builder_.room_for_another(points, start))
+            points.push_back(point);
+        else
+            stop();
+    }
+
+    void read_face(std::size_t start) {
+        corners_.clear();
+        bool good = true;
+        while (good && !cursor_.at_line_end() && cursor_.peek() != '#') {
+            const auto corner = take_corner();
+            if (corner)
+                corners_.push_back(*corner);
+            else
+                good = false;
+        }
+        if (!good)
+            return;
+        if (corners_.size() < 3)
+            report_.error(
+                cursor_.offset(),
+                1,
+                fmt::format(
+                    "expected three or more vertices of the face, found {}", corners_.size()),
+                "write 'f 1 2 3'");
+        else if (!report_.any_error() && !builder_.add_face(corners_, start))
+            stop();
+    }
+
+    /// position, position/texture, position//normal or position/texture/normal.
+    std::optional<MeshCorner> take_corner() {
+        MeshCorner corner;
+        const Mesh& mesh = builder_.mesh();
+        if (!take_number(corner.position, mesh.positions.size(), "vertex", "v"))
+            return std::nullopt;
+        if (cursor_.peek() != '/')
+            return ends_word() ? std::optional(corner) : std::nullopt;
+        cursor_.step();
+        if (cursor_.peek() == '-' || cursor_.peek() == '+')
+            cursor_.step();
+        while (is_digit(cursor_.peek()))
+            cursor_.step();
+        if (cursor_.peek() == '/') {
+            cursor_.step();
+            if (!take_number(corner.normal, mesh.normals.size(), "normal", "vn"))
+                return std::nullopt;
+        }
+        return ends_word() ? std::optional(corner) : std::nullopt;
+    }
+
+    static bool is_digit(char letter) { return letter >= '0' && letter <= '9'; }
+
+    bool ends_word() {
+        const char next = cursor_.peek();
+        if (cursor_.at_end() || next == ' ' || next == '\n' || next == '\t' || next == '\r'
+            || next == '\\')
+            return true;
+        cursor_.expected(
+            "a blank behind the vertex of a face",
+            "a corner is written 1, 1/2, 1//3 or 1/2/3: vertex, texture, normal");
+        return false;
+    }
+
+    /// A number from 1 on, or from -1 backwards from what has been read last.
+    bool
+    take_number(std::uint32_t& index, std::size_t count, const char* thing, const char* keyword) {
+        const std::size_t start = cursor_.offset();
+        const bool backwards = cursor_.peek() == '-';
+        if (backwards || cursor_.peek() == '+')
+            cursor_.step();
+        if (!is_digit(cursor_.peek())) {
+            cursor_.expected(
+                fmt::format("the number of a {} of the face", thing),
+                "a corner is written 1, 1/2, 1//3 or 1/2/3: vertex, texture, normal");
+            return false;
+        }
+        std::uint64_t number = 0;
+        for (; is_digit(cursor_.peek()); cursor_.step())
+            if (number < 1'000'000'000'000)
+                number = 10 * number + static_cast<std::uint64_t>(cursor_.peek() - '0');
+        if (number == 0 || number > count) {
+            complain_of_index(start, count, thing, keyword);
+            return false;
+        }
+        index = static_cast<std::uint32_t>(backwards ? count - number : number - 1);
+        return true;
+    }
+
+    void complain_of_index(
+        std::size_t start, std::size_t count, const char* thing, const char* keyword) {
+        const std::size_t length = cursor_.offset() - start;
+        const std::string_view written = report_.source().text().substr(start, length);
+        report_.error(
+            start,
+            length,
+            fmt::format(
+                "there is no {} {}: {} '{}' before this face",
+                thing,
+                written.substr(0, 40),
+                counted(count, "line begins with", "lines begin with"),
+                keyword),
+            fmt::format(
+                "the first '{0}' has the number 1, and the last before the face the number -1",
+                keyword));
+    }
+
+    void warn() {
+        if (free_form_.count > 0)
+            report_.warning(
+                free_form_.first,
+                1,
+                fmt::format(
+                    "free-form curves and surfaces are left out ({})",
+                    counted(free_form_.count, "statement", "statements")),
+                "let the program that wrote the file export polygons");
+        if (unknown_.count > 0)
+            report_.warning(
+                unknown_.first,
+                1,
+                fmt::format(
+                    "{} unknown, the first of them here, and left out",
+                    counted(unknown_.count, "statement is", "statements are")));
+    }
+
+    /// There is no use in reading on.
+    void stop() {
+        while (!cursor_.at_end())
+            cursor_.skip_line();
+    }
+
+    SourceReport report_;
+    TextCursor cursor_;
+    MeshBuilder builder_;
+    std::vector<MeshCorner> corners_;
+    Tally free_form_;
+    Tally unknown_;
+};
+
+} // namespace
+
+Mesh read_obj(const SourceText& source, std::vector<Diagnostic>& warnings) {
+    return ObjReader(source).read(warnings);
+}
+
+} // namespace vera

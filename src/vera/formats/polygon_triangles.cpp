@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vera/formats/polygon_triangles.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vera {
+
+Vec3 doubled_area_vector(std::span<const Vec3> corners) {
+    Vec3 sum;
+    for (std::size_t i = 2; i < corners.size(); ++i)
+        sum = sum + cross(corners[i - 1] - corners[0], corners[i] - corners[0]);
+    return sum;
+}
+
+namespace {
+
+struct FlatPoint {
+    double x = 0;
+    double y = 0;
+
+    friend bool operator==(const FlatPoint&, const FlatPoint&) = default;
+};
+
+/// Positive where a, b, c turn to the left.
+double turn(FlatPoint a, FlatPoint b, FlatPoint c) {
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+/// The corners relative to the first one, scaled by a power of two to a size of about 1, so that no
+/// product of them underflows or overflows.
+std::vector<Vec3> scaled_to_one(std::span<const Vec3> corners) {
+    double largest = 0;
+    for (const Vec3& corner : corners)
+        largest = std::max(largest, max_component(abs(corner - corners[0])));
+    int exponent = 0;
+    if (largest > 0 && std::isfinite(largest))
+        std::frexp(largest, &exponent);
+    std::vector<Vec3> scaled;
+    scaled.reserve(corners.size());
+    for (const Vec3& corner : corners) {
+        const Vec3 offset = corner - corners[0];
+        scaled.push_back(
+            {std::ldexp(offset.x, -exponent),
+             std::ldexp(offset.y, -exponent),
+             std::ldexp(offset.z, -exponent)});
+    }
+    return scaled;
+}
+
+/// The polygon as seen along the axis that its normal is closest to, from the normal's side, so
+/// that it runs to the left round its interior.
+std::vector<FlatPoint> flattened(const std::vector<Vec3>& corners, Vec3 normal) {
+    const std::size_t axis = longest_axis(normal);
+    std::size_t first = (axis + 1) % 3;
+    std::size_t second = (axis + 2) % 3;
+    if (normal[axis] < 0)
+        std::swap(first, second);
+    std::vector<FlatPoint> points;
+    points.reserve(corners.size());
+    for (const Vec3& corner : corners)
+        points.push_back({corner[first], corner[second]});
+    return points;
+}
+
+struct Convexity {
+    bool convex = true;
+    bool strictly = true; ///< no corner on a straight side
+};
+
+Convexity convexity(const std::vector<FlatPoint>& points) {
+    Convexity result;
+    const std::size_t n = points.size();
+    // A closed line that only turns to the left goes round once if its direction changes between
+    // rightwards and leftwards just twice.
+    int changes = 0;
+    int last_way = 0;
+    int first_way = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        const FlatPoint a = points[i];
+        const FlatPoint b = points[(i + 1) % n];
+        const double turned = turn(a, b, points[(i + 2) % n]);
+        result.convex = result.convex && turned >= 0;
+        result.strictly = result.strictly && turned > 0;
+        const int way = b.x > a.x ? 1 : b.x < a.x ? -1 : 0;
+        if (way == 0)
+            continue;
+        if (first_way == 0)
+            first_way = way;
+        changes += last_way != 0 && way != last_way ? 1 : 0;
+        last_way = way;
+    }
+    changes += last_way != first_way ? 1 : 0;
+    result.convex = result.convex && changes == 2;
+    result.strictly = result.strictly && result.convex;
+    return result;
+}
+
+/// Cuts corner after corner off a polygon that runs to the left round its interior, where the
+/// triangle of the corner and its neighbours holds no other corner. Cutting one ear changes nothing
+/// but its neighbours, so that each corner is looked at three times at most.
+class EarClipper {
+public:
+    EarClipper(const std::vector<FlatPoint>& points, std::vector<CornerTriple>& triangles)
+        : points_(points)
+        , triangles_(triangles)
+        , left_(points.size())
+        , steps_left_(steps_per_corner * points.size()) {
+        const auto n = static_cast<std::uint32_t>(points.size());
+        previous_.resize(n);
+        next_.resize(n);
+        state_.assign(n, State::reflex);
+        by_x_.resize(n);
+        for (std::uint32_t i = 0; i < n; ++i) {
+            previous_[i] = i == 0 ? n - 1 : i - 1;
+            next_[i] = i + 1 == n ? 0 : i + 1;
+            by_x_[i] = i;
+        }
+        for (std::uint32_t i = 0; i < n; ++i)
+            update(i);
+        std::sort(by_x_.begin(), by_x_.end(), [&](std::uint32_t a, std::uint32_t b) {
+            return points_[a].x != points_[b].x ? points_[a].x < points_[b].x : a < b;
+        });
+    }
+
+    /// Whether all of the polygon could be cut off in ears.
+    bool clip() {
+        std::vector<std::uint32_t> waiting(points_.size());
+        for (std::uint32_t i = 0; i < waiting.size(); ++i)
+            waiting[i] = static_cast<std::uint32_t>(waiting.size()) - 1 - i;
+        std::uint32_t any = 0;
+        while (left_ > 3) {
+            if (waiting.empty()) {
+                if (!drop_straight_corners(any, waiting))
+                    break;
+                continue;
+            }
+            const std::uint32_t i = waiting.back();
+            waiting.pop_back();
+            if (state_[i] != State::convex || !is_ear(i))
+                continue;
+            add(previous_[i], i, next_[i]);
+            any = cut(i);
+            waiting.push_back(next_[any]);
+            waiting.push_back(any);
+        }
+        const bool clean = left_ == 3 && steps_left_ > 0
+            && turn(points_[previous_[any]], points_[any], points_[next_[any]]) >= 0;
+        for (std::uint32_t i = next_[any]; next_[i] != any; i = next_[i])
+            add(any, i, next_[i]);
+        return clean;
+    }
+
+private:
+    static constexpr std::size_t steps_per_corner = 1024;
+
+    enum class State : std::uint8_t { convex, reflex, gone };
+
+    void update(std::uint32_t i) {
+        const bool convex = turn(points_[previous_[i]], points_[i], points_[next_[i]]) > 0;
+        state_[i] = convex ? State::convex : State::reflex;
+    }
+
+    /// Takes the corner out of the ring, and returns the one before it.
+    std::uint32_t cut(std::uint32_t i) {
+        const std::uint32_t before = previous_[i];
+        const std::uint32_t after = next_[i];
+        next_[before] = after;
+        previous_[after] = before;
+        state_[i] = State::gone;
+        --left_;
+        update(before);
+        update(after);
+        return before;
+    }
+
+    bool is_ear(std::uint32_t i) {
+        const FlatPoint a = points_[previous_[i]];
+        const FlatPoint b = points_[i];
+        const FlatPoint c = points_[next_[i]];
+        const double lowest = std::min({a.x, b.x, c.x});
+        const double highest = std::max({a.x, b.x, c.x});
+        auto candidate =
+            std::lower_bound(by_x_.begin(), by_x_.end(), lowest, [&](std::uint32_t j, double x) {
+                return points_[j].x < x;
+            });
+        for (; candidate != by_x_.end() && points_[*candidate].x <= highest; ++candidate) {
+            if (steps_left_ == 0)
+                return false;
+            --steps_left_;
+            if (state_[*candidate] != State::reflex)
+                continue;
+            const FlatPoint point = points_[*candidate];
+            // Where a bridge joins a hole to the outline, two corners are the same point.
+            if (point == a || point == b || point == c)
+                continue;
+            if (turn(a, b, point) >= 0 && turn(b, c, point) >= 0 && turn(c, a, point) >= 0)
+                return false;
+        }
+        return true;
+    }
+
+    /// When no ear is left: corners on straight lines and the tips of spikes hold no area.
+    bool drop_straight_corners(std::uint32_t& any, std::vector<std::uint32_t>& waiting) {
+        if (steps_left_ == 0)
+            return false;
+        bool dropped = false;
+        std::uint32_t i = any;
+        for (std::size_t count = left_; count > 0 && left_ > 3; --count) {
+            const std::uint32_t after = next_[i];
+            if (turn(points_[previous_[i]], points_[i], points_[after]) == 0) {
+                any = cut(i);
+                waiting.push_back(any);
+                waiting.push_back(after);
+                dropped = true;
+            }
+            i = after;
+        }
+        return dropped;
+    }
+
+    void add(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        if (turn(points_[a], points_[b], points_[c]) != 0)
+            triangles_.push_back({a, b, c});
+    }
+
+    const std::vector<FlatPoint>& points_;
+    std::vector<CornerTriple>& triangles_;
+    std::vector<std::uint32_t> previous_;
+    std::vector<std::uint32_t> next_;
+    std::vector<std::uint32_t> by_x_;
+    std::vector<State> state_;
+    std::size_t left_;
+    std::size_t steps_left_;
+};
+
+/// Most faces of more than three corners have four: those need no memory.
+bool split_quadrangle(std::span<const Vec3> p, std::vector<CornerTriple>& triangles) {
+    const Vec3 normal = cross(p[2] - p[0], p[3] - p[1]);
+    const auto faces_up = [&](std::size_t a, std::size_t b, std::size_t c) {
+        return dot(cross(p[b] - p[a], p[c] - p[a]), normal) > 0;
+    };
+    const bool up[] = {faces_up(3, 0, 1), faces_up(0, 1, 2), faces_up(1, 2, 3), faces_up(2, 3, 0)};
+    if (!up[0] || !up[1] || !up[2] || !up[3])
+        return false;
+    triangles.push_back({0, 1, 2});
+    triangles.push_back({0, 2, 3});
+    return true;
+}
+
+} // namespace
+
+OutlineKind split_polygon(std::span<const Vec3> corners, std::vector<CornerTriple>& triangles) {
+    triangles.clear();
+    if (corners.size() == 4 && split_quadrangle(corners, triangles))
+        return OutlineKind::convex;
+
+    const std::vector<Vec3> scaled = scaled_to_one(corners);
+    const Vec3 normal = doubled_area_vector(scaled);
+    const std::vector<FlatPoint> points = flattened(scaled, normal);
+    const Convexity convex = convexity(points);
+    if (convex.strictly || !(max_component(abs(normal)) > 0)) {
+        for (std::uint32_t i = 2; i < corners.size(); ++i)
+            triangles.push_back({0, i - 1, i});
+        return convex.strictly ? OutlineKind::convex : OutlineKind::tangled;
+    }
+    if (!EarClipper(points, triangles).clip())
+        return OutlineKind::tangled;
+    return convex.convex ? OutlineKind::convex : OutlineKind::simple;
+}
+
+} // namespace vera
