@@ -102,7 +102,8 @@ void number_geometry(const Scene& scene, Geometry& geometry) {
     geometry.primitive_count = primitives;
 }
 
-/// Subscenes in an order in which each stands after all that it calls.
+} // namespace
+
 std::vector<std::size_t> callees_first(const Scene& scene) {
     enum class State : std::uint8_t { unseen, open, done };
     std::vector<State> states(scene.subscenes.size(), State::unseen);
@@ -140,8 +141,6 @@ std::vector<std::size_t> callees_first(const Scene& scene) {
     }
     return order;
 }
-
-} // namespace
 
 void number_primitives(Scene& scene) {
     for (const std::size_t i : callees_first(scene))

@@ -7,6 +7,7 @@
 #include "vera/scene/material.h"
 #include "vera/scene/picture_settings.h"
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,6 +25,9 @@ struct Scene {
     std::vector<std::string> files;  ///< that the scene was read from; items name them by number
     PictureSettings defaults;        ///< used where no control file is given
 };
+
+/// The numbers of all subscenes, each after all those that it calls.
+std::vector<std::size_t> callees_first(const Scene& scene);
 
 /// Fills in what is derived in every geometry. Throws InputError when there are more than 2^62
 /// primitives, or 2^32 - 1 or more elements in one geometry.

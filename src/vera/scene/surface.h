@@ -29,6 +29,7 @@ struct PrimitivePath {
     Affine3 to_world;   ///< from the geometry's coordinates to the main scene's
     Affine3 from_world; ///< its inverse, composed of the calls' own inverses
     MaterialId material = inherited_material;
+    std::uint32_t depth = 0;   ///< how many subscene calls lead there
     bool in_main_scene = true; ///< then both maps are the identity
 };
 

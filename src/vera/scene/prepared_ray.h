@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "vera/math/ray.h"
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace vera {
+
+/// A ray with what the primitives ask of it, made once for each ray and system of coordinates.
+///
+/// Plane faces are looked at along the ray: moved so that the origin is 0, sheared so that the
+/// direction becomes the axis along which it is longest. What is left of a corner is two
+/// coordinates, and the question whether the ray's point (0, 0) lies in the face. A corner that two
+/// faces share gets the same two numbers in both, so that no ray slips through between them
+/// (Woop, Benthin and Wald 2013).
+struct PreparedRay {
+    Ray ray;
+    std::size_t x_axis = 0;
+    std::size_t y_axis = 1;
+    std::size_t z_axis = 2;
+    double shear_x = 0;
+    double shear_y = 0;
+    double direction_z = 1;
+    double origin_size = 0; ///< the largest coordinate of the origin, without its sign
+
+    explicit PreparedRay(const Ray& given)
+        : ray(given)
+        , z_axis(longest_axis(given.direction))
+        , origin_size(max_component(abs(given.origin))) {
+        x_axis = z_axis == 2 ? 0 : z_axis + 1;
+        y_axis = x_axis == 2 ? 0 : x_axis + 1;
+        direction_z = ray.direction[z_axis];
+        shear_x = ray.direction[x_axis] / direction_z;
+        shear_y = ray.direction[y_axis] / direction_z;
+    }
+
+    /// Whether surfaces through the origin are those that the ray starts on. Those of parallel
+    /// projections, which see what lies before their origin as well, do not start there.
+    bool starts_at_origin() const { return ray.t_min >= 0; }
+
+    /// How near its origin a surface passes that the ray starts on, when the coordinates that say
+    /// where the surface lies are at most so large.
+    double start_distance(double coordinate_size) const {
+        // A coordinate difference, a normal and a product are rounded by a few units of 2^-53
+        // each; 2^-48 leaves room for points that were moved onto one of two coincident surfaces.
+        const double size = coordinate_size > origin_size ? coordinate_size : origin_size;
+        return ray.origin_error + 0x1p-48 * size;
+    }
+
+    /// Also where t is infinite or not a number: then false.
+    bool covers(double t) const {
+        return t >= ray.t_min && t <= ray.t_max
+            && std::abs(t) <= std::numeric_limits<double>::max();
+    }
+};
+
+/// A point as the ray sees it: two coordinates across the ray, one along the axis that its
+/// direction is longest on.
+struct ShearedPoint {
+    double x = 0;
+    double y = 0;
+    double z = 0;
+};
+
+inline ShearedPoint sheared(const PreparedRay& prepared, Vec3 point) {
+    const Vec3 from_origin = point - prepared.ray.origin;
+    const double z = from_origin[prepared.z_axis];
+    return {
+        from_origin[prepared.x_axis] - prepared.shear_x * z,
+        from_origin[prepared.y_axis] - prepared.shear_y * z,
+        z};
+}
+
+/// Twice the area of the triangle from the ray to a and b: its sign says on which side the edge
+/// passes the ray. Rounding may make it 0, but never gives it the wrong sign, since each product
+/// is rounded by itself and rounding keeps order.
+inline double edge_function(const ShearedPoint& a, const ShearedPoint& b) {
+    return a.x * b.y - a.y * b.x;
+}
+
+} // namespace vera

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vera/scene/surface.h"
+
+#include "vera/base/check.h"
+#include "vera/scene/contour.h"
+#include "vera/scene/crossings.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vera {
+
+namespace {
+
+/// A place on a face in the coordinates of its own geometry.
+struct LocalSurface {
+    Vec3 point;
+    double point_error = 0;
+    Vec3 geometric_normal;
+    Vec3 shading_normal;
+};
+
+/// A point moved onto a surface through places of this size is off it by at most this: the
+/// difference, the product with the normal and the step are each rounded.
+double rounding_of(double size) {
+    return 0x1p-50 * size;
+}
+
+Vec3 towards_outside(Vec3 normal, Vec3 by_normal, Outside outside) {
+    switch (outside) {
+    case Outside::along_normal:
+        return normal;
+    case Outside::against_normal:
+        return -normal;
+    case Outside::by_normal:
+        break;
+    }
+    return dot(normal, by_normal) < 0 ? -normal : normal;
+}
+
+LocalSurface
+plane_surface(Vec3 point, Vec3 corner, Vec3 normal, Vec3 shading_normal, Outside outside) {
+    const Vec3 moved = point - dot(point - corner, normal) * normal;
+    const double size = std::max(max_component(abs(moved)), max_component(abs(corner)));
+    const Vec3 out = towards_outside(normal, shading_normal, outside);
+    return {moved, rounding_of(size), out, shading_normal};
+}
+
+Vec3 normal_of(const std::array<Vec3, 3>& corners) {
+    return normalized(cross(corners[1] - corners[0], corners[2] - corners[0]));
+}
+
+LocalSurface triangle_surface(Vec3 point, const std::array<Vec3, 3>& corners, Outside outside) {
+    const Vec3 normal = normal_of(corners);
+    LocalSurface surface = plane_surface(point, corners[0], normal, normal, outside);
+    surface.shading_normal = surface.geometric_normal;
+    return surface;
+}
+
+LocalSurface patch_surface(
+    Vec3 point,
+    const std::array<Vec3, 3>& corners,
+    const std::array<Vec3, 3>& normals,
+    Outside outside) {
+    const Vec3 normal = normal_of(corners);
+    // Weights of the corners: the areas of the triangles opposite to them.
+    const auto area = [&](std::size_t from, std::size_t to) {
+        return dot(normal, cross(corners[from] - point, corners[to] - point));
+    };
+    const std::array<double, 3> weights = {area(1, 2), area(2, 0), area(0, 1)};
+    const Vec3 interpolated =
+        weights[0] * normals[0] + weights[1] * normals[1] + weights[2] * normals[2];
+    const Vec3 shading = interpolated == Vec3{} ? normal : normalized(interpolated);
+    return plane_surface(point, corners[0], normal, shading, outside);
+}
+
+LocalSurface sphere_surface(Vec3 point, const Sphere& sphere) {
+    const Vec3 normal = normalized(point - sphere.center);
+    const double size = max_component(abs(sphere.center)) + sphere.radius;
+    return {sphere.center + sphere.radius * normal, rounding_of(size), normal, normal};
+}
+
+LocalSurface rotational_surface(Vec3 point, const RotationalShape& shape, std::uint32_t piece) {
+    const Vec3 from_base = point - shape.base;
+    const double h = dot(from_base, shape.axis);
+    const Vec3 from_axis = from_base - h * shape.axis;
+    const double r = length(from_axis);
+    const Vec3 outwards = r > 0 ? from_axis / r : Vec3{};
+
+    const ContourPiece::Point start = piece == 0 ? shape.start : shape.contour[piece - 1].end;
+    const ContourPiece& contour = shape.contour[piece];
+    const double v = nearest_parameter(contour, start, {r, h});
+    const ContourPiece::Point at = point_at(contour, start, v);
+    const ContourPiece::Point along = direction_at(hodograph(contour, start), v);
+    const double size = std::sqrt(along.r * along.r + along.h * along.h);
+    const ContourPiece::Point out = {along.h / size, -along.r / size};
+
+    // Along the normal onto the tangent: the way along the contour stays as the ray said.
+    const double off = (r - at.r) * out.r + (h - at.h) * out.h;
+    const Vec3 normal = normalized(out.r * outwards + out.h * shape.axis);
+    const double reach = max_component(abs(shape.base)) + std::abs(at.h) + at.r;
+    return {point - off * normal, 4 * rounding_of(reach), normal, normal};
+}
+
+LocalSurface polygon_surface(
+    Vec3 point,
+    const Geometry& geometry,
+    const Polygon& polygon,
+    Outside outside,
+    std::uint32_t piece) {
+    const auto corners = corners_of(geometry, polygon);
+    if (polygon.shape == Polygon::Shape::split_quadrangle)
+        return triangle_surface(point, corners_of_half(corners, piece), outside);
+    LocalSurface surface =
+        plane_surface(point, corners[0], polygon.normal, polygon.normal, outside);
+    surface.shading_normal = surface.geometric_normal;
+    return surface;
+}
+
+LocalSurface mesh_surface(Vec3 point, const Mesh& mesh, std::uint32_t triangle, Outside outside) {
+    const auto corners = corners_of(mesh, triangle);
+    if (mesh.normals.empty())
+        return triangle_surface(point, corners, outside);
+    const auto& indices = mesh.normal_indices.empty() ? mesh.position_indices : mesh.normal_indices;
+    const std::size_t first = 3 * std::size_t{triangle};
+    return patch_surface(
+        point,
+        corners,
+        {mesh.normals[indices[first]],
+         mesh.normals[indices[first + 1]],
+         mesh.normals[indices[first + 2]]},
+        outside);
+}
+
+LocalSurface
+local_surface(const Geometry& geometry, Element element, std::uint32_t piece, Vec3 point) {
+    const Item& item = geometry.items[element.item];
+    switch (item.kind) {
+    case ItemKind::sphere:
+        return sphere_surface(point, geometry.spheres[item.index]);
+    case ItemKind::triangle:
+        return triangle_surface(point, geometry.triangles[item.index].corners, item.outside);
+    case ItemKind::polygon:
+        return polygon_surface(point, geometry, geometry.polygons[item.index], item.outside, piece);
+    case ItemKind::patch: {
+        const Patch& patch = geometry.patches[item.index];
+        return patch_surface(point, patch.corners, patch.normals, item.outside);
+    }
+    case ItemKind::rotational_shape:
+        return rotational_surface(point, geometry.rotational_shapes[item.index], piece);
+    case ItemKind::mesh:
+        return mesh_surface(point, geometry.meshes[item.index], element.triangle, item.outside);
+    case ItemKind::subscene_call:
+        break;
+    }
+    VERA_CHECK(item.kind != ItemKind::subscene_call);
+    return {};
+}
+
+/// The place in the main scene's coordinates.
+LocalSurface carried(const PrimitivePath& path, const LocalSurface& local) {
+    LocalSurface world;
+    world.point = transformed_point(path.to_world, local.point);
+    const Vec3 size = abs(local.point);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const Vec3 row = abs(path.to_world.linear.rows[axis]);
+        // Each level's map and its inverse add their rounding to those of the composed ones.
+        const double rounding = static_cast<double>(path.depth + 1) * 0x1p-48
+            * (dot(row, size) + std::abs(path.to_world.translation[axis]));
+        const double carried_error = local.point_error * (row.x + row.y + row.z);
+        world.point_error = std::max(world.point_error, rounding + carried_error);
+    }
+    const Matrix3& inverse = path.from_world.linear;
+    world.geometric_normal = normalized(transposed_times(inverse, local.geometric_normal));
+    world.shading_normal = normalized(transposed_times(inverse, local.shading_normal));
+    return world;
+}
+
+/// The item that holds the primitive with this number within the geometry, and how many primitives
+/// of the item come before it.
+struct Location {
+    std::uint32_t item = 0;
+    std::uint64_t within = 0;
+};
+
+Location location_of(const Geometry& geometry, std::uint64_t number) {
+    const auto& compounds = geometry.compounds;
+    const auto after = std::upper_bound(
+        compounds.begin(),
+        compounds.end(),
+        number,
+        [](std::uint64_t primitive, const Compound& compound) {
+            return primitive < compound.first_primitive;
+        });
+    if (after == compounds.begin())
+        return {static_cast<std::uint32_t>(number), 0};
+    const Compound& compound = *(after - 1);
+    const std::uint64_t within = number - compound.first_primitive;
+    // The items up to the next compound hold one primitive each.
+    const std::uint64_t end =
+        after == compounds.end() ? geometry.primitive_count : after->first_primitive;
+    const std::uint64_t next_item = after == compounds.end() ? geometry.items.size() : after->item;
+    const std::uint64_t single = next_item - compound.item - 1;
+    const std::uint64_t size = end - compound.first_primitive - single;
+    if (within < size)
+        return {compound.item, within};
+    return {static_cast<std::uint32_t>(compound.item + 1 + (within - size)), 0};
+}
+
+} // namespace
+
+PrimitivePath path_to(const Scene& scene, std::uint64_t primitive) {
+    PrimitivePath path;
+    path.geometry = &scene.geometry;
+    std::uint64_t number = primitive;
+    while (true) {
+        VERA_CHECK(number < path.geometry->primitive_count);
+        const Location location = location_of(*path.geometry, number);
+        const Item& item = path.geometry->items[location.item];
+        if (item.material != inherited_material)
+            path.material = item.material;
+        if (item.kind != ItemKind::subscene_call) {
+            path.element = {location.item, static_cast<std::uint32_t>(location.within)};
+            return path;
+        }
+        const SubsceneCall& call = path.geometry->calls[item.index];
+        path.to_world = composed(path.to_world, call.to_parent);
+        path.from_world = composed(call.from_parent, path.from_world);
+        path.in_main_scene = false;
+        ++path.depth;
+        path.geometry = &scene.subscenes[static_cast<std::size_t>(call.subscene)];
+        number = location.within;
+    }
+}
+
+SurfacePoint surface_at(const Scene& scene, const Ray& ray, const Hit& hit) {
+    const PrimitivePath path = path_to(scene, hit.face.primitive);
+    const Vec3 point = point_at(ray, hit.t);
+    LocalSurface surface;
+    if (path.in_main_scene) {
+        surface = local_surface(*path.geometry, path.element, hit.face.piece, point);
+    } else {
+        const Vec3 local_point = transformed_point(path.from_world, point);
+        surface =
+            carried(path, local_surface(*path.geometry, path.element, hit.face.piece, local_point));
+    }
+    SurfacePoint result;
+    result.point = surface.point;
+    result.point_error = surface.point_error;
+    result.geometric_normal = surface.geometric_normal;
+    result.shading_normal = surface.shading_normal;
+    result.material = path.material;
+    result.face = hit.face;
+    return result;
+}
+
+} // namespace vera
