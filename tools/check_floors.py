@@ -25,6 +25,12 @@ FLOORS = [
 ]
 FLOOR_OF = {folder: number for number, folders in enumerate(FLOORS, 1) for folder in folders}
 
+# Libraries that one file alone may include: the beginning of the header's name, and the file.
+ONLY_IN = {
+    "tbb/": "src/vera/base/parallel.cpp",
+    "oneapi/tbb/": "src/vera/base/parallel.cpp",
+}
+
 NAMES_THAT_SAY_NOTHING = {"core", "common", "util", "utils", "misc", "helper", "helpers", "manager", "managers"}
 
 LICENCE = "SPDX-License-Identifier: Apache-2.0"
@@ -55,6 +61,9 @@ def include_problems(path, folder, lines):
         if not match:
             continue
         bracket, name = match.groups()
+        for beginning, only in ONLY_IN.items():
+            if name.startswith(beginning) and not path.as_posix().endswith("/" + only):
+                yield path, number, f"includes <{name}>: only {only} does"
         parts = name.split("/")
         if parts[0] in ("apps", "tests", "bench") or (bracket == '"' and ".." in parts):
             yield path, number, f'includes "{name}": what is no part of the library is included by none'

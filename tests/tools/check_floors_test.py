@@ -72,6 +72,12 @@ class CheckFloors(unittest.TestCase):
         self.expect_problem(
             {"tests/math/a_test.cpp": LICENCE + '#include "apps/vera/command.h"\n'}, "a_test.cpp:2:")
 
+    def test_a_library_that_one_file_may_include_is_left_to_it(self):
+        self.expect_problem(
+            {"src/vera/accel/a.cpp": LICENCE + "#include <tbb/parallel_for.h>\n",
+             "src/vera/base/parallel.cpp": LICENCE + "#include <oneapi/tbb/parallel_for.h>\n"},
+            "src/vera/accel/a.cpp:2:", "only src/vera/base/parallel.cpp")
+
     def test_work_left_undone_is_named(self):
         self.expect_problem({"src/vera/math/a.cpp": LICENCE + "// TO" + "DO\n"}, "a.cpp:2:")
 

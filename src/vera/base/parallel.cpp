@@ -6,7 +6,79 @@
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
 
+#if defined(__has_feature)
+#if __has_feature(thread_sanitizer)
+#define VERA_THREAD_SANITIZER
+extern "C" void __tsan_acquire(void* address); // NOLINT(bugprone-reserved-identifier)
+extern "C" void __tsan_release(void* address); // NOLINT(bugprone-reserved-identifier)
+#endif
+#endif
+
 namespace vera {
+
+namespace {
+
+/// Tells ThreadSanitizer what oneTBB, which is built without it, promises: that a turn sees what
+/// was written before the loop, and that what follows the loop sees what the turns wrote. It does
+/// not order the turns among themselves, so that their races are found.
+class LoopOrder {
+public:
+    void before_loop() { release(begun_); }
+
+    void after_loop() { acquire(ended_); }
+
+    /// Lives as long as a turn.
+    class Turn {
+    public:
+        explicit Turn(LoopOrder& order)
+            : order_(order) {
+            acquire(order_.begun_);
+        }
+
+        ~Turn() { release(order_.ended_); }
+
+        Turn(const Turn&) = delete;
+        Turn& operator=(const Turn&) = delete;
+
+    private:
+        LoopOrder& order_;
+    };
+
+private:
+#ifdef VERA_THREAD_SANITIZER
+    static void acquire(char& tag) {
+        __tsan_acquire(&tag);
+    }
+
+    static void release(char& tag) {
+        __tsan_release(&tag);
+    }
+#else
+    static void acquire(char&) {}
+
+    static void release(char&) {}
+#endif
+
+    char begun_ = 0;
+    char ended_ = 0;
+};
+
+/// Calls the order's after_loop however the loop ends.
+class LoopEnd {
+public:
+    explicit LoopEnd(LoopOrder& order)
+        : order_(order) {}
+
+    ~LoopEnd() { order_.after_loop(); }
+
+    LoopEnd(const LoopEnd&) = delete;
+    LoopEnd& operator=(const LoopEnd&) = delete;
+
+private:
+    LoopOrder& order_;
+};
+
+} // namespace
 
 ThreadLimit::ThreadLimit(std::size_t threads)
     : control_(new tbb::global_control(
@@ -21,9 +93,15 @@ void parallel_ranges(
     std::size_t count,
     std::size_t grain,
     const std::function<void(std::size_t first, std::size_t last)>& turn) {
+    LoopOrder order;
+    order.before_loop();
+    const LoopEnd end(order);
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, count, grain),
-        [&](const tbb::blocked_range<std::size_t>& range) { turn(range.begin(), range.end()); },
+        [&](const tbb::blocked_range<std::size_t>& range) {
+            const LoopOrder::Turn in_turn(order);
+            turn(range.begin(), range.end());
+        },
         tbb::simple_partitioner());
 }
 
