@@ -6,12 +6,9 @@
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
 
-#if defined(__has_feature)
-#if __has_feature(thread_sanitizer)
-#define VERA_THREAD_SANITIZER
+#ifdef VERA_THREAD_SANITIZER
 extern "C" void __tsan_acquire(void* address); // NOLINT(bugprone-reserved-identifier)
 extern "C" void __tsan_release(void* address); // NOLINT(bugprone-reserved-identifier)
-#endif
 #endif
 
 namespace vera {
