@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vera/accel/element_records.h"
+
+#include "vera/base/check.h"
+
+#include <algorithm>
+
+namespace vera::detail {
+
+namespace {
+
+// Coordinates are rounded to the nearest float, which the slack of a query allows for. What says
+// how large something is must not shrink.
+constexpr double enlarged = 1 + 0x1p-22;
+
+ElementRecord record_of(ElementRecord::Kind kind, Vec3 a, Vec3 b, Vec3 c) {
+    ElementRecord record;
+    record.kind = kind;
+    const Vec3 rows[] = {a, b, c};
+    for (std::size_t i = 0; i < 9; ++i)
+        record.values[i] = static_cast<float>(rows[i / 3][i % 3]);
+    return record;
+}
+
+ElementRecord triangle_record(const GeometryGrids& grids, Vec3 a, Vec3 b, Vec3 c) {
+    return record_of(
+        ElementRecord::Kind::triangle,
+        local_point(grids, a),
+        grids.scale * (b - a),
+        grids.scale * (c - a));
+}
+
+ElementRecord cylinder_record(const GeometryGrids& grids, const RotationalShape& shape) {
+    double lowest = shape.start.h;
+    double highest = shape.start.h;
+    double radius = shape.start.r;
+    const auto include = [&](ContourPiece::Point point) {
+        lowest = std::min(lowest, point.h);
+        highest = std::max(highest, point.h);
+        radius = std::max(radius, point.r);
+    };
+    for (const ContourPiece& piece : shape.contour) {
+        if (piece.kind != ContourPiece::Kind::line)
+            include(piece.control[0]);
+        if (piece.kind == ContourPiece::Kind::cubic)
+            include(piece.control[1]);
+        include(piece.end);
+    }
+    const Vec3 middle = shape.base + (0.5 * lowest + 0.5 * highest) * shape.axis;
+    const double half_length = 0.5 * (highest - lowest);
+    return record_of(
+        ElementRecord::Kind::cylinder,
+        local_point(grids, middle),
+        shape.axis,
+        enlarged * grids.scale * Vec3{radius, half_length, 0});
+}
+
+} // namespace
+
+ElementRecord element_record(const GeometryGrids& grids, Element element, const Box3& local_box) {
+    const Geometry& geometry = *grids.geometry;
+    const Item& item = geometry.items[element.item];
+    switch (item.kind) {
+    case ItemKind::sphere: {
+        const Sphere& sphere = geometry.spheres[item.index];
+        return record_of(
+            ElementRecord::Kind::sphere,
+            local_point(grids, sphere.center),
+            {enlarged * grids.scale * sphere.radius, 0, 0},
+            {});
+    }
+    case ItemKind::triangle: {
+        const auto& corners = geometry.triangles[item.index].corners;
+        return triangle_record(grids, corners[0], corners[1], corners[2]);
+    }
+    case ItemKind::patch: {
+        const auto& corners = geometry.patches[item.index].corners;
+        return triangle_record(grids, corners[0], corners[1], corners[2]);
+    }
+    case ItemKind::mesh: {
+        const Mesh& mesh = geometry.meshes[item.index];
+        const std::uint32_t* corners =
+            mesh.position_indices.data() + std::size_t{3} * element.triangle;
+        return triangle_record(
+            grids,
+            mesh.positions[corners[0]],
+            mesh.positions[corners[1]],
+            mesh.positions[corners[2]]);
+    }
+    case ItemKind::rotational_shape:
+        return cylinder_record(grids, geometry.rotational_shapes[item.index]);
+    case ItemKind::polygon:
+        return record_of(ElementRecord::Kind::box, local_box.lower, local_box.upper, {});
+    case ItemKind::subscene_call:
+        return record_of(ElementRecord::Kind::call, local_box.lower, local_box.upper, {});
+    }
+    VERA_CHECK(false);
+}
+
+} // namespace vera::detail

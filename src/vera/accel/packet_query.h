@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "vera/accel/grid_structures.h"
+#include "vera/accel/ray_index.h"
+#include "vera/accel/searches.h"
+#include "vera/scene/prepared_ray.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <span>
+#include <vector>
+
+namespace vera::detail {
+
+/// Rays are asked about in packets, which look at a cell together. A set of lanes is a bit mask.
+constexpr std::size_t packet_size = 16;
+using LaneMask = std::uint32_t;
+
+/// A packet in the local coordinates of the geometry that it visits: in single precision, for what
+/// only prunes, and in double, for what decides.
+///
+/// In local coordinates the rays start where they enter the geometry's bounds and have unit
+/// directions. A ray passes within slack of where its single precision form says: that covers the
+/// rounding of both forms, of the element's record, and of the test that decides.
+struct alignas(64) Frame {
+    using Row = std::array<float, packet_size>;
+
+    std::array<Row, 3> origin;
+    std::array<Row, 3> direction;
+    std::array<Row, 3> inverse; ///< of the direction; large but finite where that is 0
+    Row limit;                  ///< nothing farther away counts; slack included
+    float slack = 0;
+    const GeometryGrids* grids = nullptr;
+    std::uint32_t visit = 0; ///< tells this visit from all others in the mailbox
+    std::uint32_t depth = 0;
+    std::uint64_t first_primitive = 0;
+    MaterialId material = inherited_material;
+    std::array<double, packet_size> start_t; ///< where local distance is 0
+    std::array<double, packet_size> speed;   ///< local distance for one unit of t
+    std::array<std::uint32_t, packet_size> start_element;
+    std::array<PreparedRay, packet_size> rays = empty_rays();
+
+    static std::array<PreparedRay, packet_size> empty_rays();
+};
+
+/// Remembers which rays were tested against which element, so that none is twice.
+class Mailbox {
+public:
+    Mailbox()
+        : entries_(initial_size) {}
+
+    /// Forgets everything. Then visits are numbered from next_visit() on.
+    void clear();
+
+    std::uint32_t next_visit() { return ++last_visit_; }
+
+    /// Those of the lanes that were not posted for this element in this visit; posts them.
+    LaneMask post(std::uint32_t visit, std::uint32_t element, LaneMask lanes) {
+        std::size_t place = (element * 0x9e3779b1U + visit * 0x85ebca6bU) & mask_;
+        while (true) {
+            Entry& entry = entries_[place];
+            if (entry.visit == visit && entry.element == element) {
+                const LaneMask fresh = lanes & ~entry.lanes;
+                entry.lanes |= lanes;
+                return fresh;
+            }
+            if (entry.visit < first_visit_) {
+                entry = {visit, element, lanes};
+                if (++used_ * 2 > entries_.size())
+                    grow();
+                return lanes;
+            }
+            place = (place + 1) & mask_;
+        }
+    }
+
+private:
+    static constexpr std::size_t initial_size = 256;
+
+    struct Entry {
+        std::uint32_t visit = 0;
+        std::uint32_t element = 0;
+        LaneMask lanes = 0;
+    };
+
+    void grow();
+
+    std::vector<Entry> entries_;
+    std::size_t mask_ = initial_size - 1;
+    std::size_t used_ = 0;
+    std::uint32_t first_visit_ = 1; ///< entries of visits before it are free
+    std::uint32_t last_visit_ = 0;
+};
+
+/// What is wanted of the crossings.
+enum class Purpose : std::uint8_t {
+    nearest,      ///< the first face
+    window,       ///< the first face, when it is known where to stop
+    any,          ///< whether there is one
+    transmittance ///< what they let through
+};
+
+/// A packet of rays, asked about all at once. Holds its memory from one packet to the next.
+struct PacketQuery {
+    const Scene* scene = nullptr;
+    const std::vector<GeometryGrids>* geometries = nullptr; ///< the main scene, then the subscenes
+    Purpose purpose = Purpose::nearest;
+    std::span<const QueryRay> rays;
+    LaneMask active = 0;                   ///< lanes that have no final answer
+    std::uint32_t changes = 0;             ///< how often a limit or active has changed
+    std::array<double, packet_size> limit; ///< crossings at a greater t do not count
+    std::vector<NearestSearch> nearest;
+    std::vector<WindowSearch> window;
+    std::array<TransmittanceSearch, packet_size> transmittance;
+    QueryCounts counts;
+    Mailbox mailbox;
+    std::deque<Frame> frames; ///< by depth of subscenes
+};
+
+/// Prepares the frame of the main scene; returns the lanes that touch its bounds.
+LaneMask enter_scene(PacketQuery& query);
+
+/// Prepares the frame of the subscene that the element calls, one deeper than the frame; returns
+/// the lanes that touch its bounds.
+LaneMask enter_call(PacketQuery& query, Frame& frame, std::uint32_t element, LaneMask lanes);
+
+/// Whether subscenes are nested so deeply here that the stack must be spared: then the call is
+/// searched by search_plainly.
+inline bool too_deep(const Frame& frame) {
+    return frame.depth >= 48;
+}
+
+void search_plainly(PacketQuery& query, Frame& frame, std::uint32_t element, LaneMask lanes);
+
+/// Tests the lanes' rays against the element, which is not a call, in the arithmetic that decides.
+void test_exactly(PacketQuery& query, Frame& frame, std::uint32_t element, LaneMask lanes);
+
+/// Takes over the query's limits, which may have changed in a subscene.
+void refresh_limits(const PacketQuery& query, Frame& frame, LaneMask lanes);
+
+/// Searches the whole scene for the packet.
+void search_grids(PacketQuery& query);
+
+} // namespace vera::detail
