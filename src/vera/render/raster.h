@@ -2,6 +2,7 @@
 #pragma once
 
 #include "vera/accel/ray_index.h"
+#include "vera/render/sample_positions.h"
 #include "vera/render/tiles.h"
 #include "vera/scene/camera.h"
 
@@ -16,13 +17,13 @@ struct Raster {
     std::size_t width = 0;
     std::size_t height = 0;
 
-    /// The ray that sees through pixel (x, y) at (across, down) of its width and height.
-    QueryRay ray(std::size_t x, std::size_t y, double across = 0.5, double down = 0.5) const {
+    /// The ray that sees through that place of pixel (x, y), which may lie outside the picture.
+    QueryRay ray(double x, double y, SamplePosition position = {}) const {
         QueryRay query;
         query.ray = view_ray(
             camera,
-            (static_cast<double>(x) + across) / static_cast<double>(width),
-            (static_cast<double>(y) + down) / static_cast<double>(height));
+            (x + position.across) / static_cast<double>(width),
+            (y + position.down) / static_cast<double>(height));
         return query;
     }
 };
@@ -32,7 +33,7 @@ inline void view_rays(const Raster& raster, const Tile& tile, std::vector<QueryR
     rays.clear();
     for (std::size_t y = tile.y; y < tile.y + tile.height; ++y)
         for (std::size_t x = tile.x; x < tile.x + tile.width; ++x)
-            rays.push_back(raster.ray(x, y));
+            rays.push_back(raster.ray(static_cast<double>(x), static_cast<double>(y)));
 }
 
 } // namespace vera

@@ -2,6 +2,7 @@
 #include "vera/render/render_scene.h"
 
 #include "vera/image/develop.h"
+#include "vera/render/antialiasing.h"
 #include "vera/render/generations.h"
 #include "vera/render/raster.h"
 #include "vera/render/tiles.h"
@@ -79,7 +80,9 @@ RenderResult render_scene(
     result.image = blank_image(raster.width, raster.height, sample_type);
     ProgressMeter done(
         progress, static_cast<double>(raster.width) * static_cast<double>(raster.height));
-    result.statistics += render_centers(traced, raster, result.image, done);
+    result.statistics += settings.antialiasing.on
+        ? render_antialiased(traced, raster, settings.antialiasing, result.image, done)
+        : render_centers(traced, raster, result.image, done);
     return result;
 }
 

@@ -32,7 +32,7 @@ public:
 
     /// To be called when none is lent.
     template <typename Visitor>
-    void for_each(const Visitor& visit) const {
+    void for_each(const Visitor& visit) {
         for (const auto& workspace : idle_)
             visit(*workspace);
     }

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "vera/image/image.h"
+#include "vera/render/generations.h"
+#include "vera/render/raster.h"
+#include "vera/render/statistics.h"
+#include "vera/render/workspaces.h"
+#include "vera/scene/picture_settings.h"
+
+namespace vera {
+
+/// The picture by controlled oversampling (ANTI-ALIAS), as follows.
+///
+/// Every pixel gets a ray through its centre, which colours it, and one elsewhere in it that only
+/// asks what is hit. A pixel is refined, to `samples` rays, where a neighbour of the eight shows
+/// another surface (see same_surface), or a colour that differs by more than the tolerance from its
+/// own, unless the colours of one surface change evenly from that neighbour to the opposite one.
+///
+/// A thing is thin where one of a pixel's rays sees it but fewer than 3 of the 9 centres there do.
+/// The 8 neighbours of such a pixel are refined as well, and so on along the thing. Where it lies
+/// before a plain background, which 5 of the 9 centres see, they get 4 times as many rays (not more
+/// than 256), so that a tenth of a pixel is not missed.
+///
+/// Which pixels are refined follows from these rules alone, not from the order of work.
+RenderStatistics render_antialiased(
+    const TracedScene& traced,
+    const Raster& raster,
+    const Antialiasing& settings,
+    Image& image,
+    ProgressMeter& done);
+
+} // namespace vera

@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vera/render/refinement.h"
+
+#include "vera/image/develop.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vera {
+
+namespace {
+
+/// Of a window's 3 x 3 places row by row, the middle one, and the four pairs of opposite ones.
+constexpr std::size_t middle = 4;
+constexpr std::array<std::array<std::size_t, 2>, 4> opposites = {{{3, 5}, {1, 7}, {0, 8}, {2, 6}}};
+
+double largest_difference(Color a, Color b) {
+    return std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)});
+}
+
+template <typename Window>
+std::ptrdiff_t count_of_same(const Window& window, const Seen& one) {
+    return std::count_if(
+        window.begin(), window.end(), [&](const Seen* other) { return same_surface(one, *other); });
+}
+
+/// A half plane that reaches into a pixel covers at least 3 centres around it.
+template <typename Window>
+bool is_thin(const Window& window, const Seen& one) {
+    return count_of_same(window, one) < 3;
+}
+
+template <typename Window>
+Refinement refinement_of_thin(const Window& window) {
+    const bool is_plain = std::any_of(window.begin(), window.end(), [&](const Seen* one) {
+        return count_of_same(window, *one) >= 5;
+    });
+    return is_plain ? Refinement::thin : Refinement::edge;
+}
+
+} // namespace
+
+TileRefiner::TileRefiner(const RefinedPicture& picture)
+    : picture_(picture)
+    , tracer_(picture.traced) {}
+
+void TileRefiner::render(const Tile& tile) {
+    begin(tile);
+    see_all_centers();
+    find_edges();
+    send_probes();
+    refine_pending();
+}
+
+void TileRefiner::refine(const Tile& tile, std::span<const RefinementRequest> requests) {
+    begin(tile);
+    for (const RefinementRequest& request : requests) {
+        const std::size_t x = request.pixel % picture_.raster.width - tile.x;
+        const std::size_t y = request.pixel / picture_.raster.width - tile.y;
+        want(y * tile.width + x, request.refinement);
+    }
+    refine_pending();
+}
+
+void TileRefiner::begin(const Tile& tile) {
+    tile_ = tile;
+    const std::size_t framed = (tile.width + 2) * (tile.height + 2);
+    centers_.resize(framed);
+    is_known_.assign(framed, 0);
+    pixels_.assign(tile.width * tile.height, {});
+    pending_.clear();
+}
+
+std::size_t TileRefiner::center_of(std::size_t pixel) const {
+    return (pixel / tile_.width + 1) * (tile_.width + 2) + pixel % tile_.width + 1;
+}
+
+std::uint64_t TileRefiner::picture_pixel(std::size_t pixel) const {
+    const std::uint64_t row = tile_.y + pixel / tile_.width;
+    return row * picture_.raster.width + tile_.x + pixel % tile_.width;
+}
+
+std::uint32_t TileRefiner::sample_count(Refinement refinement) const {
+    constexpr std::uint32_t most = 256;
+    const std::uint32_t samples = picture_.settings.samples;
+    return refinement == Refinement::thin ? std::max(samples, std::min(4 * samples, most))
+                                          : samples;
+}
+
+TileRefiner::Window TileRefiner::window(std::size_t pixel) const {
+    const std::size_t stride = tile_.width + 2;
+    const Seen* corner = &centers_[center_of(pixel) - stride - 1];
+    Window window;
+    for (std::size_t i = 0; i < window.size(); ++i)
+        window[i] = corner + i / 3 * stride + i % 3;
+    return window;
+}
+
+void TileRefiner::see_all_centers() {
+    rays_.clear();
+    for (std::size_t y = 0; y < tile_.height + 2; ++y)
+        for (std::size_t x = 0; x < tile_.width + 2; ++x)
+            rays_.push_back(picture_.raster.ray(
+                static_cast<double>(tile_.x + x) - 1, static_cast<double>(tile_.y + y) - 1));
+    trace_samples();
+    const std::size_t pixels = tile_.width * tile_.height;
+    tracer_.statistics.extra_view_rays += rays_.size() - pixels;
+
+    for (std::size_t i = 0; i < centers_.size(); ++i) {
+        centers_[i] = seen(hits_[i], surfaces_[i]);
+        centers_[i].color = clamped(colors_[i]);
+        is_known_[i] = 1;
+        colors_[i] = centers_[i].color;
+    }
+    for (std::size_t y = 0; y < tile_.height; ++y)
+        develop(
+            std::span<const Color>(colors_).subspan(center_of(y * tile_.width), tile_.width),
+            picture_.image,
+            tile_.x,
+            tile_.y + y);
+}
+
+void TileRefiner::find_edges() {
+    for (std::size_t pixel = 0; pixel < pixels_.size(); ++pixel) {
+        const Window around = window(pixel);
+        if (differs(around))
+            want(
+                pixel,
+                is_thin(around, *around[middle]) ? refinement_of_thin(around) : Refinement::edge);
+    }
+}
+
+bool TileRefiner::differs(const Window& window) const {
+    const double tolerance = picture_.settings.tolerance;
+    const Seen& own = *window[middle];
+    for (const auto& [first, second] : opposites) {
+        const Seen& one = *window[first];
+        const Seen& other = *window[second];
+        if (!same_surface(own, one) || !same_surface(own, other))
+            return true;
+        if (largest_difference(own.color, one.color) <= tolerance
+            && largest_difference(own.color, other.color) <= tolerance)
+            continue;
+        // A step of the tolerance lies half of it away from the middle of its two sides.
+        const Color even = 0.5 * (one.color + other.color);
+        if (!(largest_difference(own.color, even) <= 0.5 * tolerance))
+            return true;
+    }
+    return false;
+}
+
+void TileRefiner::send_probes() {
+    rays_.clear();
+    targets_.clear();
+    for (std::size_t pixel = 0; pixel < pixels_.size(); ++pixel) {
+        if (pixels_[pixel].wanted != Refinement::center)
+            continue;
+        const std::size_t x = tile_.x + pixel % tile_.width;
+        const std::size_t y = tile_.y + pixel / tile_.width;
+        rays_.push_back(picture_.raster.ray(
+            static_cast<double>(x), static_cast<double>(y), probe_position(x, y)));
+        targets_.push_back(pixel);
+    }
+    hits_.resize(rays_.size());
+    surfaces_.resize(rays_.size());
+    tracer_.nearest(rays_, hits_);
+    tracer_.surfaces(rays_, hits_, surfaces_);
+    tracer_.statistics.probe_rays += rays_.size();
+
+    for (std::size_t i = 0; i < rays_.size(); ++i) {
+        const Window around = window(targets_[i]);
+        if (is_thin(around, seen(hits_[i], surfaces_[i])))
+            want(targets_[i], refinement_of_thin(around));
+    }
+}
+
+void TileRefiner::want(std::size_t pixel, Refinement refinement) {
+    if (refinement <= pixels_[pixel].wanted || refinement <= picture_.refined[picture_pixel(pixel)])
+        return;
+    pixels_[pixel].wanted = refinement;
+    pending_.push_back(pixel);
+}
+
+void TileRefiner::want_neighbours(std::size_t pixel, Refinement refinement) {
+    const std::size_t x = tile_.x + pixel % tile_.width;
+    const std::size_t y = tile_.y + pixel / tile_.width;
+    for (std::size_t near_y = y == 0 ? 0 : y - 1; near_y <= y + 1; ++near_y)
+        for (std::size_t near_x = x == 0 ? 0 : x - 1; near_x <= x + 1; ++near_x) {
+            if (near_x >= picture_.raster.width || near_y >= picture_.raster.height
+                || (near_x == x && near_y == y))
+                continue;
+            if (near_x >= tile_.x && near_x < tile_.x + tile_.width && near_y >= tile_.y
+                && near_y < tile_.y + tile_.height)
+                want((near_y - tile_.y) * tile_.width + near_x - tile_.x, refinement);
+            else
+                outward.push_back({near_y * picture_.raster.width + near_x, refinement});
+        }
+}
+
+void TileRefiner::refine_pending() {
+    // Pixels are taken as they come up, as many at a time as make a generation of rays.
+    for (std::size_t next = 0; next < pending_.size();) {
+        jobs_.clear();
+        std::size_t ray_count = 0;
+        for (; next < pending_.size() && ray_count < GenerationTracer::generation_size; ++next) {
+            Pixel& pixel = pixels_[pending_[next]];
+            const std::uint32_t wanted = sample_count(pixel.wanted);
+            if (wanted <= pixel.samples)
+                continue;
+            jobs_.push_back({pending_[next], pixel.samples, wanted, pixel.wanted});
+            ray_count += wanted - pixel.samples;
+            pixel.samples = wanted;
+        }
+        see_centers_around(jobs_);
+
+        rays_.clear();
+        for (const Job& job : jobs_)
+            for (std::uint32_t sample = job.first_sample; sample < job.last_sample; ++sample)
+                rays_.push_back(picture_.raster.ray(
+                    static_cast<double>(tile_.x + job.pixel % tile_.width),
+                    static_cast<double>(tile_.y + job.pixel / tile_.width),
+                    net_position(picture_pixel(job.pixel), sample)));
+        trace_samples();
+        tracer_.statistics.extra_view_rays += rays_.size();
+
+        std::size_t first_ray = 0;
+        for (const Job& job : jobs_) {
+            add_samples(job, first_ray);
+            follow_thin_things(job, first_ray);
+            develop_pixel(job);
+            first_ray += job.last_sample - job.first_sample;
+        }
+    }
+}
+
+void TileRefiner::see_centers_around(std::span<const Job> jobs) {
+    rays_.clear();
+    targets_.clear();
+    const std::size_t stride = tile_.width + 2;
+    for (const Job& job : jobs) {
+        const std::size_t corner = center_of(job.pixel) - stride - 1;
+        for (std::size_t i = 0; i < 9; ++i) {
+            const std::size_t center = corner + i / 3 * stride + i % 3;
+            if (is_known_[center] != 0)
+                continue;
+            is_known_[center] = 1;
+            targets_.push_back(center);
+            rays_.push_back(picture_.raster.ray(
+                static_cast<double>(tile_.x + center % stride) - 1,
+                static_cast<double>(tile_.y + center / stride) - 1));
+        }
+    }
+    if (rays_.empty())
+        return;
+    hits_.resize(rays_.size());
+    surfaces_.resize(rays_.size());
+    tracer_.nearest(rays_, hits_);
+    tracer_.surfaces(rays_, hits_, surfaces_);
+    tracer_.statistics.probe_rays += rays_.size();
+    for (std::size_t i = 0; i < targets_.size(); ++i)
+        centers_[targets_[i]] = seen(hits_[i], surfaces_[i]);
+}
+
+void TileRefiner::trace_samples() {
+    hits_.resize(rays_.size());
+    surfaces_.resize(rays_.size());
+    colors_.resize(rays_.size());
+    tracer_.nearest(rays_, hits_);
+    tracer_.surfaces(rays_, hits_, surfaces_);
+    tracer_.shade(rays_, hits_, surfaces_, colors_);
+    tracer_.statistics.view_rays += rays_.size();
+}
+
+void TileRefiner::add_samples(const Job& job, std::size_t first_ray) {
+    // One after another from the first, also when a pixel's samples come in two parts.
+    Color& sum = pixels_[job.pixel].sum;
+    for (std::uint32_t i = 0; i < job.last_sample - job.first_sample; ++i)
+        sum += clamped(colors_[first_ray + i]);
+}
+
+void TileRefiner::follow_thin_things(const Job& job, std::size_t first_ray) {
+    const Window around = window(job.pixel);
+    const bool own_is_thin = is_thin(around, *around[middle]);
+    for (std::uint32_t i = 0; i < job.last_sample - job.first_sample; ++i) {
+        const Seen sample = seen(hits_[first_ray + i], surfaces_[first_ray + i]);
+        if (!own_is_thin && same_surface(*around[middle], sample))
+            continue;
+        if (is_thin(around, sample)) {
+            want_neighbours(job.pixel, refinement_of_thin(around));
+            return;
+        }
+    }
+}
+
+void TileRefiner::develop_pixel(const Job& job) {
+    Refinement& refined = picture_.refined[picture_pixel(job.pixel)];
+    if (refined == Refinement::center)
+        ++tracer_.statistics.refined_pixels;
+    refined = job.refinement;
+    const Color mean = (1.0 / job.last_sample) * pixels_[job.pixel].sum;
+    develop(
+        std::span(&mean, 1),
+        picture_.image,
+        tile_.x + job.pixel % tile_.width,
+        tile_.y + job.pixel / tile_.width);
+}
+
+} // namespace vera

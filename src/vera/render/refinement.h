@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "vera/image/image.h"
+#include "vera/render/generations.h"
+#include "vera/render/raster.h"
+#include "vera/render/seen.h"
+#include "vera/render/tiles.h"
+#include "vera/scene/picture_settings.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace vera {
+
+/// How far a pixel is refined.
+enum class Refinement : std::uint8_t {
+    center, ///< one ray
+    edge,   ///< Antialiasing::samples
+    thin    ///< 4 times as many
+};
+
+/// The wish that a pixel, numbered row by row, be refined.
+struct RefinementRequest {
+    std::uint64_t pixel = 0;
+    Refinement refinement = Refinement::edge;
+
+    friend constexpr auto operator<=>(const RefinementRequest&, const RefinementRequest&) = default;
+};
+
+/// What the tiles of a picture have in common. refined[pixel] is written by the pixel's tile alone.
+struct RefinedPicture {
+    const TracedScene& traced;
+    const Raster& raster;
+    const Antialiasing& settings;
+    Image& image;
+    std::span<Refinement> refined;
+};
+
+/// Renders and refines tiles, one after another: what a thread needs for it.
+class TileRefiner {
+public:
+    explicit TileRefiner(const RefinedPicture& picture);
+
+    /// The rays through the centres, the probes, and what they lead to within the tile.
+    void render(const Tile& tile);
+
+    /// What the requests, all of pixels of the tile, lead to within the tile.
+    void refine(const Tile& tile, std::span<const RefinementRequest> requests);
+
+    /// Requests that have come up for pixels of other tiles.
+    std::vector<RefinementRequest> outward;
+
+    RenderStatistics statistics() const { return tracer_.statistics; }
+
+private:
+    /// A pixel's further rays.
+    struct Job {
+        std::size_t pixel = 0; ///< in the tile
+        std::uint32_t first_sample = 0;
+        std::uint32_t last_sample = 0;
+        Refinement refinement = Refinement::edge;
+    };
+
+    /// A pixel of the tile, while it is worked on.
+    struct Pixel {
+        Refinement wanted = Refinement::center;
+        std::uint32_t samples = 0;
+        Color sum; ///< of the samples
+    };
+
+    using Window = std::array<const Seen*, 9>;
+
+    void begin(const Tile& tile);
+    void see_all_centers();
+    void find_edges();
+    void send_probes();
+    void refine_pending();
+    void see_centers_around(std::span<const Job> jobs);
+    void trace_samples();
+    void add_samples(const Job& job, std::size_t first_ray);
+    void follow_thin_things(const Job& job, std::size_t first_ray);
+    void develop_pixel(const Job& job);
+
+    void want(std::size_t pixel, Refinement refinement);
+    void want_neighbours(std::size_t pixel, Refinement refinement);
+    bool differs(const Window& window) const;
+    Window window(std::size_t pixel) const;
+    std::size_t center_of(std::size_t pixel) const;
+    std::uint64_t picture_pixel(std::size_t pixel) const;
+    std::uint32_t sample_count(Refinement refinement) const;
+
+    const RefinedPicture& picture_;
+    GenerationTracer tracer_;
+
+    Tile tile_;
+    std::vector<Seen> centers_;          ///< of the tile and a frame of one pixel around it
+    std::vector<std::uint8_t> is_known_; ///< which of them
+    std::vector<Pixel> pixels_;
+    std::vector<std::size_t> pending_;
+    std::vector<Job> jobs_;
+
+    std::vector<QueryRay> rays_;
+    std::vector<std::size_t> targets_; ///< what the rays are for
+    std::vector<Hit> hits_;
+    std::vector<SurfacePoint> surfaces_;
+    std::vector<Color> colors_;
+};
+
+} // namespace vera
