@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vera/shade/firmament.h"
+
+#include <gtest/gtest.h>
+
+namespace vera {
+namespace {
+
+TEST(Firmament, IsBlackWhereThereIsNone) {
+    EXPECT_EQ(firmament_color(std::nullopt, {0, 1, 0}), Color{});
+}
+
+TEST(Firmament, GoesFromHorizonToSkyWithTheHeightOfTheDirection) {
+    const Firmament firmament = {{0, 0, 1}, {1, 0.5, 0}, {0.25, 0.25, 0.25}};
+    EXPECT_EQ(firmament_color(firmament, {0, 1, 0}), (Color{0, 0, 1}));
+    EXPECT_EQ(firmament_color(firmament, {1, 0, 0}), (Color{1, 0.5, 0}));
+    EXPECT_EQ(firmament_color(firmament, {0, 0.5, 0.8660254037844386}), (Color{0.5, 0.25, 0.5}));
+}
+
+TEST(Firmament, IsOneEarthBelow) {
+    const Firmament firmament = {{0, 0, 1}, {1, 0.5, 0}, {0.25, 0.5, 0.75}};
+    EXPECT_EQ(firmament_color(firmament, {0, -1, 0}), firmament.earth);
+    EXPECT_EQ(firmament_color(firmament, {1, -1e-12, 0}), firmament.earth);
+}
+
+} // namespace
+} // namespace vera
