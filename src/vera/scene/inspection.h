@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "vera/base/diagnostic.h"
+#include "vera/scene/scene.h"
+
+#include <vector>
+
+namespace vera {
+
+/// Something about a scene that most likely is a mistake, though a picture can be made of it.
+struct Finding {
+    enum class Kind {
+        no_light,            ///< no light and nothing luminous: the picture would be black
+        viewpoint_in_object, ///< the view point lies inside something closed
+        all_behind_viewer,   ///< no geometry before the view point
+        unused_material
+    };
+
+    Kind kind = Kind::no_light;
+    SourcePlace place; ///< of the object in question, as far as it is known
+    std::string problem;
+    std::string remedy;
+};
+
+/// What can be said without the text of the scene, in the order of the kinds. Cheap: no index is
+/// built.
+std::vector<Finding> inspect(const Scene& scene, const PictureSettings& settings);
+
+} // namespace vera
