@@ -71,7 +71,7 @@ def include_problems(path, folder, lines):
             if folder and bracket == '"' and parts[0] != "hwy":
                 yield path, number, f'includes "{name}": write the path from src on, as "vera/FOLDER/NAME.h"'
             continue
-        if bracket == "<":
+        if bracket == "<" and "consumer" not in path.parts:
             yield path, number, f'includes <{name}>: files of our own stand in quotes'
         used = parts[1]
         if used not in FLOOR_OF:
