@@ -60,7 +60,7 @@ Point point_at(const ContourPiece& piece, Point start, double v) {
         return mix(mix(a, b, v), mix(b, c, v), v);
     }
     }
-    VERA_CHECK(!"a kind of contour piece");
+    VERA_CHECK(false && "a kind of contour piece");
 }
 
 Hodograph hodograph(const ContourPiece& piece, Point start) {
@@ -85,7 +85,7 @@ Hodograph hodograph(const ContourPiece& piece, Point start) {
              difference(piece.control[1], control),
              difference(piece.end, piece.control[1])}};
     }
-    VERA_CHECK(!"a kind of contour piece");
+    VERA_CHECK(false && "a kind of contour piece");
 }
 
 Point direction_at(const Hodograph& hodograph, double v) {
