@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vera/base/available_memory.h"
+
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace vera {
+namespace {
+
+TEST(AvailableMemory, IsSomethingBetweenAMegabyteAndThePhysicalMemory) {
+    const auto available = available_memory();
+    ASSERT_TRUE(available);
+    EXPECT_GT(*available, 1'000'000U);
+    EXPECT_LE(
+        *available,
+        static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES))
+            * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)));
+}
+
+TEST(AvailableMemory, IsLimitedByTheAddressSpace) {
+    const pid_t child = fork();
+    if (child == 0) {
+        std::uint64_t pages = 0;
+        std::ifstream("/proc/self/statm") >> pages;
+        const std::uint64_t used = pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+        constexpr std::uint64_t room = 16 << 20;
+        const rlimit limit = {used + room, RLIM_INFINITY};
+        setrlimit(RLIMIT_AS, &limit);
+        const std::uint64_t available = available_memory().value_or(0);
+        _exit(available > 0 && available <= room ? 0 : 1);
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    EXPECT_EQ(status, 0);
+}
+
+} // namespace
+} // namespace vera
