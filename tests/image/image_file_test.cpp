@@ -2,7 +2,9 @@
 #include "vera/base/diagnostic.h"
 #include "vera/image/image_file.h"
 
+#include <cerrno>
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -12,7 +14,9 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 namespace vera {
@@ -140,6 +144,12 @@ TEST_F(ImageFile, IsAPfmFromTheBottomUp) {
         content(folder_ / "a.pfm"), "PF\n1 2\n-1.0\n" + one + one + one + std::string(12, '\0'));
 }
 
+TEST_F(ImageFile, HasTheHighByteFirstInPng) {
+    const Image image = {1, 1, std::vector<std::uint16_t>{0x1234, 7, 0xfffe}};
+    write_image(image, folder_ / "a.png", ImageFileFormat::png16, {}, {.png_compression = 0});
+    EXPECT_THAT(content(folder_ / "a.png"), HasSubstr("\x12\x34\x00\x07\xff\xfe"s));
+}
+
 TEST_F(ImageFile, CarriesItsMetadata) {
     const PictureMetadata metadata = {
         {"Software", "vera 0.1.0"}, {"Settings", "--depth 5"}, {"Author", "J\xc3\xb6rg"}};
@@ -214,6 +224,31 @@ TEST_F(ImageFile, SaysThatADeviceIsFull) {
             EXPECT_EQ(error.code(), std::errc::no_space_on_device);
             EXPECT_THAT(error.what(), HasSubstr("cannot write '/dev/full'; free some space"));
         }
+}
+
+TEST_F(ImageFile, LeavesNothingWhenItGrowsBeyondALimit) {
+    for (const ImageFileFormat format : all_formats) {
+        const Image image = sample_image(sample_type(format), 300, 300);
+        const pid_t child = fork();
+        if (child == 0) {
+            std::signal(SIGXFSZ, SIG_IGN);
+            const rlimit limit = {10'000, 10'000};
+            setrlimit(RLIMIT_FSIZE, &limit);
+            try {
+                write_image(image, folder_ / "a", format);
+            } catch (const std::system_error& error) {
+                const std::string start = "cannot write '" + (folder_ / "a").native() + "'; raise";
+                _exit(std::string(error.what()).starts_with(start) ? error.code().value() : 98);
+            } catch (...) {
+                _exit(97);
+            }
+            _exit(0);
+        }
+        int status = 0;
+        waitpid(child, &status, 0);
+        EXPECT_EQ(WEXITSTATUS(status), EFBIG) << static_cast<int>(format);
+        EXPECT_TRUE(fs::is_empty(folder_));
+    }
 }
 
 TEST_F(ImageFile, TooWideForJpegIsRefusedWithAnAlternative) {
