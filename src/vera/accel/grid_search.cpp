@@ -230,25 +230,26 @@ HWY_INLINE LaneMask may_meet(const Frame& frame, const ElementRecord& record, st
 /// A grid's cells seen along the axis that a packet advances on, slice by slice.
 struct Advance {
     std::size_t axis = 0;
-    std::size_t u_axis = 0;
-    std::size_t v_axis = 0;
+    std::size_t u_axis = 1;
+    std::size_t v_axis = 2;
     bool forward = true;
 };
 
 /// Where a packet's rays are between, across its direction of advance: along u from values[0] to
-/// values[1], along v from values[2] to values[3], in cells.
+/// values[1], along v from values[2] to values[3].
 struct Window4 {
     double values[4] = {};
 };
 
-/// The way of a packet through a grid: the windows on the planes where it enters and leaves.
+/// The way of a packet through a grid, in cells: the windows on the planes where it enters and
+/// leaves.
 struct Way {
     Advance advance;
-    double enter = 0; ///< along the axis of advance, in cells
+    double enter = 0; ///< along the axis of advance
     double leave = 0;
+    double margin = 0; ///< what slack means there; the windows have theirs within
     Window4 at_enter;
     Window4 at_leave;
-    double margins[3] = {}; ///< of advance, u and v, in cells: what slack means there
 };
 
 template <std::size_t Width>
@@ -291,95 +292,122 @@ void visit_list(
     }
 }
 
+template <std::size_t Width>
+HWY_INLINE hn::Mask<Tag<Width>> mask_of(LaneMask lanes, std::size_t lane) {
+    const LaneMask here = lanes >> lane;
+    const std::uint8_t bytes[8] = {
+        static_cast<std::uint8_t>(here), static_cast<std::uint8_t>(here >> 8U)};
+    return hn::LoadMaskBits(Tag<Width>(), bytes);
+}
+
+/// The least and the greatest of a packet's values.
+template <std::size_t Width>
+class Span {
+public:
+    HWY_INLINE Span()
+        : least_(all<Width>(1e30F))
+        , most_(all<Width>(-1e30F)) {}
+
+    HWY_INLINE void add(Vec<Width> value, hn::Mask<Tag<Width>> mask) {
+        least_ = hn::Min(least_, hn::IfThenElse(mask, value, least_));
+        most_ = hn::Max(most_, hn::IfThenElse(mask, value, most_));
+    }
+
+    HWY_INLINE float least() const { return hn::GetLane(hn::MinOfLanes(Tag<Width>(), least_)); }
+
+    HWY_INLINE float most() const { return hn::GetLane(hn::MaxOfLanes(Tag<Width>(), most_)); }
+
+private:
+    Vec<Width> least_;
+    Vec<Width> most_;
+};
+
+inline Advance advance_on(std::size_t axis, bool forward) {
+    return {axis, axis == 0 ? std::size_t{1} : 0, axis == 2 ? std::size_t{1} : 2, forward};
+}
+
 /// The axis on which all lanes advance the same way, and through the most slices a unit of length;
 /// false when there is none.
 template <std::size_t Width>
-bool find_advance(
+HWY_INLINE bool find_advance(
     const Frame& frame, const Grid& grid, std::size_t first, LaneMask lanes, Advance& advance) {
     double best = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        float least = 4;
-        bool forward = false;
-        bool backward = false;
-        for (LaneMask rest = lanes; rest != 0; rest &= rest - 1) {
-            const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-            const float along = frame.direction[axis][lane];
-            forward = forward || along > 0;
-            backward = backward || along < 0;
-            least = std::min(least, std::abs(along));
-        }
-        const double slices = static_cast<double>(least) * grid.cells_per_unit[axis];
-        if (forward != backward && slices > best) {
+        Span<Width> span;
+        for (std::size_t i = first; i < first + Width; i += hn::Lanes(Tag<Width>()))
+            span.add(row<Width>(frame.direction[axis], i), mask_of<Width>(lanes, i));
+        const float least = span.least();
+        const float most = span.most();
+        const float slowest = least > 0 ? least : -most;
+        const double slices = static_cast<double>(slowest) * grid.cells_per_unit[axis];
+        if (slices > best) {
             best = slices;
-            advance = {
-                axis, axis == 0 ? std::size_t{1} : 0, axis == 2 ? std::size_t{1} : 2, forward};
+            advance = advance_on(axis, least > 0);
         }
     }
-    (void)first;
     return best > 0;
 }
 
 /// The way of the lanes' rays, which run in the grid's box from t = near to t = far.
-inline Way way_of(
+template <std::size_t Width>
+HWY_INLINE Way way_of(
     const Frame& frame,
     const Grid& grid,
+    std::size_t first,
     LaneMask lanes,
     const float* near,
     const float* far,
     const Advance& advance) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const Tag<Width> d;
+    const std::size_t step = hn::Lanes(d);
     const std::size_t k = advance.axis;
     const std::size_t across[2] = {advance.u_axis, advance.v_axis};
-    Way way;
-    way.advance = advance;
-    double lowest = infinity;
-    double highest = -infinity;
-    for (LaneMask rest = lanes; rest != 0; rest &= rest - 1) {
-        const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-        const double origin = static_cast<double>(frame.origin[k][lane]);
-        const double along = static_cast<double>(frame.direction[k][lane]);
-        const double a = origin + static_cast<double>(near[lane]) * along;
-        const double b = origin + static_cast<double>(far[lane]) * along;
-        lowest = std::min(lowest, std::min(a, b));
-        highest = std::max(highest, std::max(a, b));
+    Span<Width> places;
+    for (std::size_t i = first; i < first + Width; i += step) {
+        const auto origin = row<Width>(frame.origin[k], i);
+        const auto along = row<Width>(frame.direction[k], i);
+        const auto mask = mask_of<Width>(lanes, i);
+        places.add(hn::Add(origin, hn::Mul(hn::LoadU(d, near + i), along)), mask);
+        places.add(hn::Add(origin, hn::Mul(hn::LoadU(d, far + i), along)), mask);
     }
-    const double enter = advance.forward ? lowest : highest;
-    const double leave = advance.forward ? highest : lowest;
-    way.at_enter = {{infinity, -infinity, infinity, -infinity}};
-    way.at_leave = way.at_enter;
-    const double slack = 2 * static_cast<double>(frame.slack);
-    double steepest[2] = {0, 0};
-    for (LaneMask rest = lanes; rest != 0; rest &= rest - 1) {
-        const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-        const double origin = static_cast<double>(frame.origin[k][lane]);
-        const double along = static_cast<double>(frame.direction[k][lane]);
-        for (std::size_t i = 0; i < 2; ++i) {
-            const std::size_t axis = across[i];
-            const double slope = static_cast<double>(frame.direction[axis][lane]) / along;
-            const double start = static_cast<double>(frame.origin[axis][lane]);
-            const double a = start + (enter - origin) * slope;
-            const double b = start + (leave - origin) * slope;
-            way.at_enter.values[2 * i] = std::min(way.at_enter.values[2 * i], a);
-            way.at_enter.values[2 * i + 1] = std::max(way.at_enter.values[2 * i + 1], a);
-            way.at_leave.values[2 * i] = std::min(way.at_leave.values[2 * i], b);
-            way.at_leave.values[2 * i + 1] = std::max(way.at_leave.values[2 * i + 1], b);
-            steepest[i] = std::max(steepest[i], std::abs(slope));
+    const float enter = advance.forward ? places.least() : places.most();
+    const float leave = advance.forward ? places.most() : places.least();
+    Span<Width> entering[2];
+    Span<Width> leaving[2];
+    Span<Width> slopes[2];
+    for (std::size_t i = first; i < first + Width; i += step) {
+        const auto mask = mask_of<Width>(lanes, i);
+        const auto origin = row<Width>(frame.origin[k], i);
+        const auto inverse = row<Width>(frame.inverse[k], i);
+        for (std::size_t side = 0; side < 2; ++side) {
+            const auto start = row<Width>(frame.origin[across[side]], i);
+            const auto slope = hn::Mul(row<Width>(frame.direction[across[side]], i), inverse);
+            entering[side].add(
+                hn::Add(start, hn::Mul(hn::Sub(all<Width>(enter), origin), slope)), mask);
+            leaving[side].add(
+                hn::Add(start, hn::Mul(hn::Sub(all<Width>(leave), origin), slope)), mask);
+            slopes[side].add(hn::Abs(slope), mask);
         }
     }
-    // From here on in cells.
-    way.enter = (enter - grid.box.lower[k]) * grid.cells_per_unit[k];
-    way.leave = (leave - grid.box.lower[k]) * grid.cells_per_unit[k];
-    way.margins[0] = slack * grid.cells_per_unit[k];
-    for (std::size_t i = 0; i < 2; ++i) {
-        const std::size_t axis = across[i];
-        const double per_unit = grid.cells_per_unit[axis];
-        way.margins[1 + i] = slack * (1 + steepest[i]) * per_unit;
-        for (Window4* window : {&way.at_enter, &way.at_leave})
-            for (std::size_t side = 0; side < 2; ++side) {
-                double& value = window->values[2 * i + side];
-                value = (value - grid.box.lower[axis]) * per_unit
-                    + (side == 0 ? -way.margins[1 + i] : way.margins[1 + i]);
-            }
+    Way way;
+    way.advance = advance;
+    const double slack = 2 * static_cast<double>(frame.slack);
+    const auto in_cells = [&](float place, std::size_t axis) {
+        return (static_cast<double>(place) - grid.box.lower[axis]) * grid.cells_per_unit[axis];
+    };
+    way.enter = in_cells(enter, k);
+    way.leave = in_cells(leave, k);
+    way.margin = slack * grid.cells_per_unit[k];
+    for (std::size_t side = 0; side < 2; ++side) {
+        const std::size_t axis = across[side];
+        // The slope's rounding, and slack along the axis of advance, move a place by slope times
+        // that.
+        const double margin =
+            slack * (1 + static_cast<double>(slopes[side].most())) * grid.cells_per_unit[axis];
+        way.at_enter.values[2 * side] = in_cells(entering[side].least(), axis) - margin;
+        way.at_enter.values[2 * side + 1] = in_cells(entering[side].most(), axis) + margin;
+        way.at_leave.values[2 * side] = in_cells(leaving[side].least(), axis) - margin;
+        way.at_leave.values[2 * side + 1] = in_cells(leaving[side].most(), axis) + margin;
     }
     return way;
 }
@@ -396,28 +424,60 @@ inline double cells_covered(const Way& way) {
 }
 
 inline std::int32_t slice_at(double place, std::int32_t count) {
-    return static_cast<std::int32_t>(
-        std::clamp(std::floor(place), 0.0, static_cast<double>(count - 1)));
+    return static_cast<std::int32_t>(std::clamp(place, 0.0, static_cast<double>(count - 1)));
 }
 
 /// The farthest that any of the lanes still has to be followed, along the axis of advance.
-inline double last_place(
+template <std::size_t Width>
+HWY_INLINE double last_place(
     const Frame& frame,
     const Grid& grid,
+    std::size_t first,
     LaneMask lanes,
     const float* far,
     const Advance& advance) {
+    const Tag<Width> d;
     const std::size_t k = advance.axis;
-    double last = advance.forward ? -std::numeric_limits<double>::infinity()
-                                  : std::numeric_limits<double>::infinity();
-    for (LaneMask rest = lanes; rest != 0; rest &= rest - 1) {
-        const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-        const double t = static_cast<double>(std::min(far[lane], frame.limit[lane]));
-        const double place = static_cast<double>(frame.origin[k][lane])
-            + t * static_cast<double>(frame.direction[k][lane]);
-        last = advance.forward ? std::max(last, place) : std::min(last, place);
+    Span<Width> places;
+    for (std::size_t i = first; i < first + Width; i += hn::Lanes(d)) {
+        const auto t = hn::Min(hn::LoadU(d, far + i), row<Width>(frame.limit, i));
+        places.add(
+            hn::Add(row<Width>(frame.origin[k], i), hn::Mul(t, row<Width>(frame.direction[k], i))),
+            mask_of<Width>(lanes, i));
     }
+    const double last = static_cast<double>(advance.forward ? places.most() : places.least());
     return (last - grid.box.lower[k]) * grid.cells_per_unit[k];
+}
+
+/// The window that holds the packet from one plane between slices to the next, and what it moves by
+/// from slice to slice.
+struct MovingWindow {
+    Window4 now;
+    Window4 step;
+};
+
+/// The window for the first slice, of which the part `left` is still to be passed.
+inline MovingWindow first_window(const Way& way, double left) {
+    MovingWindow window;
+    const double length = std::abs(way.leave - way.enter);
+    for (std::size_t i = 0; i < 4; ++i) {
+        const bool upper = i % 2 == 1;
+        const double enter = way.at_enter.values[i];
+        const double leave = way.at_leave.values[i];
+        const auto outer = [&](double a, double b) {
+            return upper ? std::max(a, b) : std::min(a, b);
+        };
+        if (length > 0x1p-10) {
+            const double step = (leave - enter) / length;
+            window.step.values[i] = step;
+            // Where it stands behind the slice, or one slice before that.
+            const double after = enter + left * step;
+            window.now.values[i] = outer(after, after - step);
+        } else {
+            window.now.values[i] = outer(enter, leave); // too short for a slope
+        }
+    }
+    return window;
 }
 
 /// Follows the packet slice by slice. All that a step does to the window is additions.
@@ -439,45 +499,28 @@ void follow(
     const double sign = advance.forward ? 1 : -1;
     const std::int32_t step = advance.forward ? 1 : -1;
     const std::int32_t along_count = counts[advance.axis];
-    const double u_last = counts[advance.u_axis] - 1;
-    const double v_last = counts[advance.v_axis] - 1;
-
-    std::int32_t slice = slice_at(way.enter - sign * way.margins[0], along_count);
-    std::int32_t last = slice_at(way.leave + sign * way.margins[0], along_count);
-    Window4 from = way.at_enter;
-    Window4 to = way.at_enter;
-    Window4 steps;
-    const double length = sign * (way.leave - way.enter);
-    // What is left of the first slice.
-    const double left = std::max(advance.forward ? slice + 1 - way.enter : way.enter - slice, 0.0);
-    for (std::size_t i = 0; i < 4; ++i) {
-        const double difference = way.at_leave.values[i] - way.at_enter.values[i];
-        if (length > 0x1p-10) {
-            steps.values[i] = difference / length;
-            to.values[i] += left * steps.values[i];
-        } else {
-            // Too short for a slope: the window that holds both.
-            const bool upper = i % 2 == 1;
-            from.values[i] = upper ? std::max(way.at_enter.values[i], way.at_leave.values[i])
-                                   : std::min(way.at_enter.values[i], way.at_leave.values[i]);
-            to.values[i] = from.values[i];
-        }
-    }
-    std::uint32_t changes = query.changes;
+    const double u_end = counts[advance.u_axis];
+    const double v_end = counts[advance.v_axis];
+    const std::size_t u_last = static_cast<std::size_t>(counts[advance.u_axis] - 1);
+    const std::size_t v_last = static_cast<std::size_t>(counts[advance.v_axis] - 1);
     const std::size_t u_stride = strides[advance.u_axis];
     const std::size_t v_stride = strides[advance.v_axis];
-    for (;; slice += step) {
-        const double u_from = std::max(std::min(from.values[0], to.values[0]), 0.0);
-        const double u_to = std::min(std::max(from.values[1], to.values[1]), u_last);
-        const double v_from = std::max(std::min(from.values[2], to.values[2]), 0.0);
-        const double v_to = std::min(std::max(from.values[3], to.values[3]), v_last);
-        if (u_to >= 0 && v_to >= 0 && u_from < u_last + 1 && v_from < v_last + 1) {
-            const auto u0 = static_cast<std::size_t>(u_from);
-            const auto u1 = static_cast<std::size_t>(u_to);
-            const auto v0 = static_cast<std::size_t>(v_from);
-            const auto v1 = static_cast<std::size_t>(v_to);
-            const Cell* cells = frame.grids->cells.data() + grid.first_cell
-                + static_cast<std::size_t>(slice) * strides[advance.axis];
+
+    std::int32_t slice = slice_at(way.enter - sign * way.margin, along_count);
+    std::int32_t last = slice_at(way.leave + sign * way.margin, along_count);
+    MovingWindow window = first_window(
+        way, std::max(advance.forward ? slice + 1 - way.enter : way.enter - slice, 0.0));
+    const Cell* cells = frame.grids->cells.data() + grid.first_cell
+        + static_cast<std::size_t>(slice) * strides[advance.axis];
+    const std::ptrdiff_t slice_stride = step * static_cast<std::ptrdiff_t>(strides[advance.axis]);
+    std::uint32_t changes = query.changes;
+    while (true) {
+        const double* now = window.now.values;
+        if (now[1] >= 0 && now[3] >= 0 && now[0] < u_end && now[2] < v_end) {
+            const auto u0 = static_cast<std::size_t>(std::max(now[0], 0.0));
+            const auto u1 = std::min(static_cast<std::size_t>(std::min(now[1], u_end)), u_last);
+            const auto v0 = static_cast<std::size_t>(std::max(now[2], 0.0));
+            const auto v1 = std::min(static_cast<std::size_t>(std::min(now[3], v_end)), v_last);
             query.counts.cells += (u1 - u0 + 1) * (v1 - v0 + 1);
             for (std::size_t v = v0; v <= v1; ++v)
                 for (std::size_t u = u0; u <= u1; ++u) {
@@ -489,21 +532,21 @@ void follow(
                     else
                         visit_list<Width>(query, frame, first, lanes, cell.list());
                 }
-        }
-        if (query.changes != changes) {
-            changes = query.changes;
-            lanes &= query.active;
-            if (lanes == 0)
-                return;
-            const double place = last_place(frame, grid, lanes, far, advance);
-            last = slice_at(place + sign * way.margins[0], along_count);
+            if (query.changes != changes) {
+                changes = query.changes;
+                lanes &= query.active;
+                if (lanes == 0)
+                    return;
+                const double place = last_place<Width>(frame, grid, first, lanes, far, advance);
+                last = slice_at(place + sign * way.margin, along_count);
+            }
         }
         if (advance.forward ? slice >= last : slice <= last)
             return;
-        for (std::size_t i = 0; i < 4; ++i) {
-            from.values[i] = to.values[i];
-            to.values[i] += steps.values[i];
-        }
+        slice += step;
+        cells += slice_stride;
+        for (std::size_t i = 0; i < 4; ++i)
+            window.now.values[i] += window.step.values[i];
     }
 }
 
@@ -547,7 +590,7 @@ void visit_grid(
     Advance advance;
     if (!find_advance<Width>(frame, grid, first, lanes, advance))
         return visit_in_parts<Width>(query, frame, first, lanes, number);
-    const Way way = way_of(frame, grid, lanes, near, far, advance);
+    const Way way = way_of<Width>(frame, grid, first, lanes, near, far, advance);
     if (Width > 1 && cells_covered(way) > 2 + 1.5 * std::popcount(lanes))
         return visit_in_parts<Width>(query, frame, first, lanes, number);
     follow<Width>(query, frame, first, lanes, grid, way, far);

@@ -15,15 +15,8 @@ namespace {
 
 constexpr std::uint32_t no_element = ~std::uint32_t{0};
 
-/// Rounding to single precision moves a coordinate, or a point of a ray, by less than 2^-21 of the
-/// unit that holds the bounds; the rest is for the tests' own rounding.
-constexpr double least_slack = 0x1p-18;
-
-/// Local distances do not get larger: the bounds' diagonal is less than 4.
-constexpr double farthest = 8;
-
 float limit_of(const PacketQuery& query, const Frame& frame, std::size_t lane) {
-    if (frame.speed[lane] == 0) // see set_lane_everywhere
+    if (frame.speed[lane] == 0) // see place_rays
         return static_cast<float>((query.active >> lane & 1U) != 0 ? farthest : -farthest);
     const double distance =
         (query.limit[lane] - frame.start_t[lane]) * frame.speed[lane] + 2.0 * double{frame.slack};
@@ -58,64 +51,6 @@ std::uint32_t element_of(const Geometry& geometry, std::uint64_t primitive) {
     return static_cast<std::uint32_t>(next_element - (next - primitive));
 }
 
-void set_lane(Frame& frame, std::size_t lane, Vec3 origin, Vec3 direction) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        frame.origin[axis][lane] = static_cast<float>(origin[axis]);
-        const double along = direction[axis];
-        frame.direction[axis][lane] = static_cast<float>(along);
-        constexpr double least = 1e-20;
-        frame.inverse[axis][lane] = static_cast<float>(
-            std::abs(along) > least ? 1 / along : std::copysign(1 / least, along));
-    }
-}
-
-/// A ray that cannot be followed (of no direction, or not finite) is let meet everything.
-void set_lane_everywhere(Frame& frame, std::size_t lane) {
-    set_lane(frame, lane, {}, {1, 0, 0});
-    frame.slack = 64;
-    frame.start_t[lane] = 0;
-    frame.speed[lane] = 0;
-}
-
-/// Fills in a lane of a frame; false when the ray misses the bounds.
-bool place_ray(const PacketQuery& query, Frame& frame, std::size_t lane, const Ray& ray) {
-    const GeometryGrids& grids = *frame.grids;
-    const double norm = length(ray.direction);
-    const double speed = norm * grids.scale;
-    const Vec3 origin = local_point(grids, ray.origin);
-    frame.rays[lane] = PreparedRay(ray);
-    if (!(speed > 0) || !std::isfinite(speed) || !is_finite(origin)) {
-        set_lane_everywhere(frame, lane);
-        return true;
-    }
-    const Vec3 direction = ray.direction / norm;
-    const double origin_size = max_component(abs(origin));
-    const double slack = least_slack + 0x1p-44 * (origin_size + grids.scale * grids.coordinate_size)
-        + 2 * grids.scale * ray.origin_error;
-    double near = ray.t_min * speed;
-    double far = std::min(ray.t_max, query.limit[lane]) * speed;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double lower = grids.local_bounds.lower[axis] - slack - origin[axis];
-        const double upper = grids.local_bounds.upper[axis] + slack - origin[axis];
-        if (direction[axis] == 0) {
-            if (lower > 0 || upper < 0)
-                return false;
-            continue;
-        }
-        const double at_lower = lower / direction[axis];
-        const double at_upper = upper / direction[axis];
-        near = std::max(near, std::min(at_lower, at_upper));
-        far = std::min(far, std::max(at_lower, at_upper));
-    }
-    if (!(near <= far + slack))
-        return false;
-    set_lane(frame, lane, origin + near * direction, direction);
-    frame.slack = std::max(frame.slack, static_cast<float>(slack));
-    frame.start_t[lane] = near / speed;
-    frame.speed[lane] = speed;
-    return true;
-}
-
 Frame& frame_at(PacketQuery& query, std::size_t depth) {
     while (query.frames.size() <= depth)
         query.frames.emplace_back();
@@ -125,7 +60,7 @@ Frame& frame_at(PacketQuery& query, std::size_t depth) {
 void start_frame(
     PacketQuery& query, Frame& frame, const GeometryGrids& grids, std::uint64_t first_primitive) {
     frame.grids = &grids;
-    frame.slack = static_cast<float>(least_slack);
+    frame.prepared_lanes = 0;
     frame.visit = query.mailbox.next_visit();
     frame.first_primitive = first_primitive;
 }
@@ -133,8 +68,28 @@ void start_frame(
 void set_start_element(const PacketQuery& query, Frame& frame, std::size_t lane) {
     const std::uint64_t start = query.rays[lane].start.primitive - frame.first_primitive;
     const Geometry& geometry = *frame.grids->geometry;
-    frame.start_element[lane] =
-        start < geometry.primitive_count ? element_of(geometry, start) : no_element;
+    frame.start_element[lane] = start >= geometry.primitive_count ? no_element
+        : geometry.calls.empty() ? static_cast<std::uint32_t>(start)
+                                 : element_of(geometry, start);
+}
+
+/// Completes a frame whose rays were filled in; returns the lanes that touch the bounds.
+LaneMask entering(PacketQuery& query, Frame& frame, LaneMask lanes) {
+    const LaneMask touching = place_rays(frame, lanes, query.limit);
+    for (LaneMask rest = touching; rest != 0; rest &= rest - 1) {
+        const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+        frame.limit[lane] = limit_of(query, frame, lane);
+        set_start_element(query, frame, lane);
+    }
+    return touching;
+}
+
+const PreparedRay& prepared_ray(Frame& frame, std::size_t lane) {
+    if ((frame.prepared_lanes >> lane & 1U) == 0) {
+        frame.prepared_lanes |= LaneMask{1} << lane;
+        frame.prepared[lane] = PreparedRay(frame.rays.ray(lane));
+    }
+    return frame.prepared[lane];
 }
 
 /// Notes what a crossing means; true when the lane's limit or its being active has changed.
@@ -201,15 +156,17 @@ LaneMask enter_scene(PacketQuery& query) {
     start_frame(query, frame, grids, 0);
     frame.depth = 0;
     frame.material = inherited_material;
-    LaneMask lanes = 0;
     for (std::size_t lane = 0; lane < query.rays.size(); ++lane) {
-        if (!place_ray(query, frame, lane, query.rays[lane].ray))
-            continue;
-        lanes |= LaneMask{1} << lane;
-        set_start_element(query, frame, lane);
+        const Ray& ray = query.rays[lane].ray;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            frame.rays.origin[axis][lane] = ray.origin[axis];
+            frame.rays.direction[axis][lane] = ray.direction[axis];
+        }
+        frame.rays.t_min[lane] = ray.t_min;
+        frame.rays.t_max[lane] = ray.t_max;
+        frame.rays.origin_error[lane] = ray.origin_error;
     }
-    refresh_limits(query, frame, lanes);
-    return lanes;
+    return entering(query, frame, query.active);
 }
 
 LaneMask enter_call(PacketQuery& query, Frame& frame, std::uint32_t element, LaneMask lanes) {
@@ -225,17 +182,8 @@ LaneMask enter_call(PacketQuery& query, Frame& frame, std::uint32_t element, Lan
         frame.first_primitive + primitive_number(geometry, place));
     inner.depth = frame.depth + 1;
     inner.material = resolved(item.material, frame.material);
-    LaneMask entering = 0;
-    for (LaneMask rest = lanes; rest != 0; rest &= rest - 1) {
-        const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-        const Ray ray = transformed_ray(call.from_parent, frame.rays[lane].ray);
-        if (!place_ray(query, inner, lane, ray))
-            continue;
-        entering |= LaneMask{1} << lane;
-        set_start_element(query, inner, lane);
-    }
-    refresh_limits(query, inner, entering);
-    return entering;
+    transform_rays(call.from_parent, frame.rays, inner.rays);
+    return entering(query, inner, lanes);
 }
 
 void search_plainly(PacketQuery& query, Frame& frame, std::uint32_t element, LaneMask lanes) {
@@ -247,7 +195,7 @@ void search_plainly(PacketQuery& query, Frame& frame, std::uint32_t element, Lan
         const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
         const Visit visit = {
             &query.scene->subscenes[static_cast<std::size_t>(call.subscene)],
-            transformed_ray(call.from_parent, frame.rays[lane].ray),
+            transformed_ray(call.from_parent, frame.rays.ray(lane)),
             frame.first_primitive + primitive_number(geometry, place),
             resolved(item.material, frame.material)};
         for_each_crossing_within(
@@ -275,7 +223,7 @@ void test_exactly(PacketQuery& query, Frame& frame, std::uint32_t element, LaneM
         for_each_crossing(
             geometry,
             place,
-            frame.rays[lane],
+            prepared_ray(frame, lane),
             frame.start_element[lane] == element ? query.rays[lane].start.piece : no_piece,
             [&](double t, std::uint32_t piece) {
                 changed = take_crossing(query, lane, t, {primitive, piece}, material) || changed;

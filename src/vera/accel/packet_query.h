@@ -4,6 +4,7 @@
 #include "vera/accel/grid_structures.h"
 #include "vera/accel/ray_index.h"
 #include "vera/accel/searches.h"
+#include "vera/math/transform.h"
 #include "vera/scene/prepared_ray.h"
 
 #include <array>
@@ -19,8 +20,28 @@ namespace vera::detail {
 constexpr std::size_t packet_size = 16;
 using LaneMask = std::uint32_t;
 
-/// A packet in the local coordinates of the geometry that it visits: in single precision, for what
-/// only prunes, and in double, for what decides.
+/// Rays, coordinate by coordinate.
+struct RayRows {
+    using Row = std::array<double, packet_size>;
+
+    std::array<Row, 3> origin;
+    std::array<Row, 3> direction;
+    Row t_min;
+    Row t_max;
+    Row origin_error;
+
+    Ray ray(std::size_t lane) const {
+        return {
+            {origin[0][lane], origin[1][lane], origin[2][lane]},
+            {direction[0][lane], direction[1][lane], direction[2][lane]},
+            t_min[lane],
+            t_max[lane],
+            origin_error[lane]};
+    }
+};
+
+/// A packet as it visits a geometry: in its coordinates and double precision, for what decides, and
+/// in local coordinates and single precision, for what only prunes.
 ///
 /// In local coordinates the rays start where they enter the geometry's bounds and have unit
 /// directions. A ray passes within slack of where its single precision form says: that covers the
@@ -32,19 +53,35 @@ struct alignas(64) Frame {
     std::array<Row, 3> direction;
     std::array<Row, 3> inverse; ///< of the direction; large but finite where that is 0
     Row limit;                  ///< nothing farther away counts; slack included
+    RayRows rays;
+    RayRows::Row start_t; ///< where local distance is 0
+    RayRows::Row speed;   ///< local distance for one unit of t
+    std::array<std::uint32_t, packet_size> start_element;
     float slack = 0;
+    LaneMask prepared_lanes = 0; ///< whose prepared rays were made
     const GeometryGrids* grids = nullptr;
     std::uint32_t visit = 0; ///< tells this visit from all others in the mailbox
     std::uint32_t depth = 0;
     std::uint64_t first_primitive = 0;
     MaterialId material = inherited_material;
-    std::array<double, packet_size> start_t; ///< where local distance is 0
-    std::array<double, packet_size> speed;   ///< local distance for one unit of t
-    std::array<std::uint32_t, packet_size> start_element;
-    std::array<PreparedRay, packet_size> rays = empty_rays();
+    std::array<PreparedRay, packet_size> prepared = empty_rays();
 
     static std::array<PreparedRay, packet_size> empty_rays();
 };
+
+/// Local distances do not get larger: the bounds' diagonal is less than 4.
+constexpr double farthest = 8;
+
+/// Rounding to single precision moves a coordinate, or a point of a ray, by less than 2^-21 of the
+/// unit that holds the bounds; the rest is for the tests' own rounding.
+constexpr double least_slack = 0x1p-18;
+
+/// Fills in the local form of the lanes' rays, and the slack; returns the lanes that touch the
+/// bounds. limit says behind which t nothing counts.
+LaneMask place_rays(Frame& frame, LaneMask lanes, const RayRows::Row& limit);
+
+/// The lanes' rays, carried by the map as transformed_ray() does, to the bit.
+void transform_rays(const Affine3& map, const RayRows& rays, RayRows& result);
 
 /// Remembers which rays were tested against which element, so that none is twice.
 class Mailbox {
@@ -109,9 +146,9 @@ struct PacketQuery {
     const std::vector<GeometryGrids>* geometries = nullptr; ///< the main scene, then the subscenes
     Purpose purpose = Purpose::nearest;
     std::span<const QueryRay> rays;
-    LaneMask active = 0;                   ///< lanes that have no final answer
-    std::uint32_t changes = 0;             ///< how often a limit or active has changed
-    std::array<double, packet_size> limit; ///< crossings at a greater t do not count
+    LaneMask active = 0;       ///< lanes that have no final answer
+    std::uint32_t changes = 0; ///< how often a limit or active has changed
+    RayRows::Row limit;        ///< crossings at a greater t do not count
     std::vector<NearestSearch> nearest;
     std::vector<WindowSearch> window;
     std::array<TransmittanceSearch, packet_size> transmittance;
