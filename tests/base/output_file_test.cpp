@@ -129,7 +129,7 @@ TEST_F(OutputFileTest, LeavesAllAsItWasWhenItIsNotCommitted) {
 TEST_F(OutputFileTest, HoldsEveryByteOfPiecesOfAllSizes) {
     std::string expected;
     OutputFile file(target_);
-    for (const std::size_t size : {1, 0, 262143, 262144, 262145, 7, 1'000'000, 100'000, 200'000}) {
+    for (const std::size_t size : {1U, 0U, 262143U, 262144U, 262145U, 7U, 1000000U, 100000U}) {
         const std::string piece(size, static_cast<char>('a' + expected.size() % 26));
         file.write(piece);
         expected += piece;

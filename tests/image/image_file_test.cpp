@@ -67,11 +67,11 @@ Image sample_image(SampleType type, std::size_t width, std::size_t height) {
         [&](auto& samples) {
             using Sample = typename std::decay_t<decltype(samples)>::value_type;
             for (std::size_t i = 0; i < samples.size(); ++i) {
-                const auto value = static_cast<double>(i / 3 % width + random() % 8);
+                const std::size_t value = i / 3 % width + random() % 8;
                 if constexpr (std::is_same_v<Sample, float>)
-                    samples[i] = static_cast<float>(value / 16 - 1);
+                    samples[i] = static_cast<float>(value) / 16 - 1;
                 else
-                    samples[i] = static_cast<Sample>(value * (sizeof(Sample) == 1 ? 3 : 777));
+                    samples[i] = static_cast<Sample>(value * (sizeof(Sample) == 1 ? 3U : 777U));
             }
         },
         image.samples);
@@ -83,7 +83,7 @@ TEST_F(ImageFile, ComesBackAsItWasWrittenInEveryFormatWithoutLoss) {
     for (const ImageFileFormat format : all_formats) {
         if (format == ImageFileFormat::jpeg)
             continue;
-        for (const std::size_t height : {1, 16, 37}) {
+        for (const std::size_t height : {1U, 16U, 37U}) {
             const Image image = sample_image(sample_type(format), 53, height);
             write_image(image, path, format, {{"Software", "vera"}});
             const Image read = read_image(path);
