@@ -2,6 +2,7 @@
 #pragma once
 
 #include "vera/base/diagnostic.h"
+#include "vera/formats/source_text.h"
 #include "vera/scene/picture_settings.h"
 
 #include <filesystem>
@@ -17,5 +18,9 @@ PictureSettings read_control_file(
     const std::filesystem::path& path,
     const PictureSettings& defaults,
     std::vector<Diagnostic>& warnings);
+
+/// The same, of a text from memory.
+PictureSettings read_control_text(
+    const SourceText& text, const PictureSettings& defaults, std::vector<Diagnostic>& warnings);
 
 } // namespace vera

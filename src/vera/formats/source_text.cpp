@@ -90,6 +90,12 @@ SourceText::~SourceText() {
         munmap(mapping_, size_);
 }
 
+void SourceText::forget(std::size_t offset) const {
+    const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+    if (mapping_ != nullptr)
+        madvise(mapping_, std::min(offset, size_) / page * page, MADV_DONTNEED);
+}
+
 SourcePlace SourceText::place(std::size_t offset) const {
     const std::string_view before = text().substr(0, offset);
     const auto lines = std::count(before.begin(), before.end(), '\n');

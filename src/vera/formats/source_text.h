@@ -27,6 +27,10 @@ public:
 
     std::string_view text() const { return {data_, size_}; }
 
+    /// Gives the memory of what stands before the offset back to the machine, where the text is a
+    /// mapped file. It is read again when it is asked for.
+    void forget(std::size_t offset) const;
+
     /// The place of the byte at an offset, or just behind the end.
     SourcePlace place(std::size_t offset) const;
 

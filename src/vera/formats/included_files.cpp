@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vera/formats/included_files.h"
+
+#include "vera/base/similar_words.h"
+#include "vera/formats/mesh_file.h"
+#include "vera/formats/word_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <system_error>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace vera {
+
+namespace {
+
+/// "; did you mean 'bunny.ply'?" when the folder holds a file of such a name, else nothing.
+std::string similar_file(const std::filesystem::path& path) {
+    constexpr std::size_t most_files = 10'000;
+    std::vector<std::string> names;
+    std::error_code error;
+    const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+    for (auto entry = std::filesystem::directory_iterator(folder, error);
+         !error && entry != std::filesystem::directory_iterator() && names.size() < most_files;
+         entry.increment(error))
+        names.push_back(entry->path().filename().string());
+    // Folders list their files in any order.
+    std::sort(names.begin(), names.end());
+    const auto similar = most_similar(path.filename().string(), names);
+    return similar ? fmt::format("; did you mean {}?", shown(*similar)) : std::string();
+}
+
+std::string extension_of(const std::filesystem::path& path) {
+    std::string extension = path.extension().string();
+    for (char& letter : extension)
+        if (letter >= 'A' && letter <= 'Z')
+            letter = static_cast<char>(letter - 'A' + 'a');
+    return extension;
+}
+
+bool is_mesh_extension(std::string_view extension) {
+    constexpr std::array<std::string_view, 3> extensions = {".obj", ".ply", ".stl"};
+    return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
+}
+
+} // namespace
+
+std::optional<std::filesystem::path>
+IncludedFiles::existing(std::string_view name, const WordPlace& place) {
+    const auto folder = std::filesystem::path(place.text->name()).parent_path();
+    // "./" so that no file name is taken for standard input.
+    const auto path = (folder.empty() ? std::filesystem::path(".") : folder) / name;
+    std::error_code error;
+    const auto status = std::filesystem::status(path, error);
+    if (status.type() == std::filesystem::file_type::not_found) {
+        complaints_.error(
+            place,
+            fmt::format("there is no file {}{}", shown(name), similar_file(path)),
+            "files are looked for in the folder of the file that names them");
+        return std::nullopt;
+    }
+    if (error) {
+        complaints_.error(place, fmt::format("cannot read {}: {}", shown(name), error.message()));
+        return std::nullopt;
+    }
+    if (status.type() != std::filesystem::file_type::regular) {
+        complaints_.error(place, fmt::format("{} is not a file", shown(name)));
+        return std::nullopt;
+    }
+    return path.lexically_normal();
+}
+
+const SourceText* IncludedFiles::text(std::string_view name, const WordPlace& place) {
+    const auto path = existing(name, place);
+    if (!path)
+        return nullptr;
+    const std::string extension = extension_of(*path);
+    if (is_mesh_extension(extension) || extension == ".nff") {
+        complaints_.error(
+            place,
+            fmt::format("{} is not a text in the scene language", shown(name)),
+            extension == ".nff" ? "scenes in NFF are read only by themselves"
+                                : "MESH reads meshes");
+        return nullptr;
+    }
+    std::error_code error;
+    auto& text = texts_[std::filesystem::canonical(*path, error)];
+    if (text)
+        return text.get();
+    try {
+        text = std::make_unique<SourceText>(*path);
+    } catch (const std::system_error& failure) {
+        complaints_.error(place, failure.what());
+    }
+    return text.get();
+}
+
+std::optional<std::filesystem::path>
+IncludedFiles::mesh_path(std::string_view name, const WordPlace& place) {
+    const auto path = existing(name, place);
+    if (path && !is_mesh_extension(extension_of(*path))) {
+        complaints_.error(
+            place,
+            fmt::format("{} is not a mesh", shown(name)),
+            "MESH reads .obj, .ply and .stl files, INCLUDE texts in the scene language");
+        return std::nullopt;
+    }
+    return path;
+}
+
+std::optional<Mesh> IncludedFiles::mesh(const std::filesystem::path& path, const WordPlace& place) {
+    std::vector<Diagnostic> warnings;
+    std::optional<Mesh> mesh;
+    try {
+        mesh = read_mesh(path, warnings);
+    } catch (const InputError& failure) {
+        complaints_.add(failure.diagnostics());
+        return std::nullopt;
+    } catch (const std::system_error& failure) {
+        complaints_.error(place, failure.what());
+        return std::nullopt;
+    }
+    complaints_.add(warnings);
+    if (mesh->triangle_count() == 0) {
+        complaints_.warn(
+            "empty meshes", place, fmt::format("{} has no triangles", shown(path.string())));
+        return std::nullopt;
+    }
+    return mesh;
+}
+
+} // namespace vera

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "vera/formats/complaints.h"
+#include "vera/formats/source_text.h"
+#include "vera/scene/primitives.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace vera {
+
+/// The other files that a scene text names, each read once.
+class IncludedFiles {
+public:
+    explicit IncludedFiles(Complaints& complaints)
+        : complaints_(complaints) {}
+
+    /// INCLUDE: the text of the file; nothing, and a complaint, when it cannot be read.
+    const SourceText* text(std::string_view name, const WordPlace& place);
+
+    /// MESH: the path of a mesh file that exists; nothing, and a complaint, when there is none.
+    std::optional<std::filesystem::path> mesh_path(std::string_view name, const WordPlace& place);
+
+    /// The mesh in the file; nothing, and complaints, when it cannot be read.
+    std::optional<Mesh> mesh(const std::filesystem::path& path, const WordPlace& place);
+
+private:
+    std::optional<std::filesystem::path> existing(std::string_view name, const WordPlace& place);
+
+    Complaints& complaints_;
+    std::map<std::filesystem::path, std::unique_ptr<SourceText>> texts_; ///< by canonical path
+};
+
+} // namespace vera

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vera/formats/read_scene.h"
+
+#include "vera/formats/mesh_file.h"
+#include "vera/formats/nff.h"
+#include "vera/formats/source_text.h"
+#include "vera/formats/vera_scene.h"
+
+#include <array>
+#include <string>
+#include <utility>
+
+namespace vera {
+
+namespace {
+
+constexpr std::array<std::pair<std::string_view, SceneFormat>, 5> formats = {{
+    {"vera", SceneFormat::vera},
+    {"nff", SceneFormat::nff},
+    {"obj", SceneFormat::obj},
+    {"ply", SceneFormat::ply},
+    {"stl", SceneFormat::stl},
+}};
+
+SceneFormat format_of(const std::filesystem::path& path) {
+    std::string extension = path.extension().string();
+    for (char& letter : extension)
+        if (letter >= 'A' && letter <= 'Z')
+            letter = static_cast<char>(letter - 'A' + 'a');
+    if (extension.empty())
+        return SceneFormat::vera;
+    return scene_format_named(std::string_view(extension).substr(1)).value_or(SceneFormat::vera);
+}
+
+Mesh read_mesh_text(const SourceText& text, SceneFormat format, std::vector<Diagnostic>& warnings) {
+    if (format == SceneFormat::obj)
+        return read_obj(text, warnings);
+    if (format == SceneFormat::ply)
+        return read_ply(text, warnings);
+    return read_stl(text, warnings);
+}
+
+SceneFile mesh_scene(const SourceText& text, SceneFormat format) {
+    SceneFile file;
+    file.scene.files.push_back(text.name());
+    Geometry& geometry = file.scene.geometry;
+    geometry.meshes.push_back(read_mesh_text(text, format, file.warnings));
+    geometry.items.push_back({.kind = ItemKind::mesh, .line = 1});
+    return file;
+}
+
+} // namespace
+
+std::optional<SceneFormat> scene_format_named(std::string_view name) {
+    for (const auto& [format_name, format] : formats)
+        if (format_name == name)
+            return format;
+    return std::nullopt;
+}
+
+SceneFile read_scene(const std::filesystem::path& path, const ReadSettings& settings) {
+    const SourceText text(path);
+    const SceneFormat format = settings.format.value_or(format_of(path));
+    SceneFile file = format == SceneFormat::vera ? read_vera_scene(text)
+        : format == SceneFormat::nff             ? read_nff(text)
+                                                 : mesh_scene(text, format);
+    number_primitives(file.scene);
+    return file;
+}
+
+} // namespace vera

@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vera/formats/scene_builder.h"
+
+#include "vera/formats/faces.h"
+#include "vera/formats/inner_point_check.h"
+#include "vera/formats/word_reader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+namespace vera {
+
+void SceneBuilder::set_text(const SourceText& text) {
+    const auto known = std::find(texts_.begin(), texts_.end(), &text);
+    file_ = static_cast<std::uint16_t>(known - texts_.begin());
+    if (known == texts_.end()) {
+        texts_.push_back(&text);
+        scene_.files.push_back(text.name());
+    }
+}
+
+void SceneBuilder::begin_subscene(std::string_view name, const WordPlace& place) {
+    end_subscene();
+    const auto id = subscene_names_.defined(name, place, complaints_);
+    discarded_ = {};
+    Geometry* geometry = &discarded_;
+    if (id) {
+        subscenes_.resize(std::max<std::size_t>(subscenes_.size(), *id + 1));
+        geometry = &subscenes_[*id];
+        geometry->name = name;
+    }
+    subscene_ = {.geometry = geometry};
+    current_ = &subscene_;
+}
+
+void SceneBuilder::end_subscene() {
+    if (!in_subscene())
+        return;
+    check_inner_point(subscene_);
+    current_ = &main_;
+}
+
+namespace {
+
+/// Room for more: exactly, unless that would mean to move everything again and again.
+template <typename Element>
+void reserve_more(std::vector<Element>& elements, std::size_t more) {
+    const std::size_t needed = elements.size() + more;
+    if (needed <= elements.capacity())
+        return;
+    elements.reserve(elements.empty() ? needed : std::max(needed, 2 * elements.capacity()));
+}
+
+} // namespace
+
+void SceneBuilder::reserve(const StatementCounts& counts) {
+    Geometry& geometry = *current_->geometry;
+    reserve_more(geometry.spheres, counts.spheres);
+    reserve_more(geometry.triangles, counts.triangles);
+    reserve_more(geometry.polygons, counts.polygons);
+    reserve_more(geometry.corners, counts.corners);
+    reserve_more(geometry.patches, counts.patches);
+    reserve_more(geometry.items, counts.items());
+}
+
+void SceneBuilder::set_material(std::string_view name, const WordPlace& place) {
+    current_->material = MaterialId{material_names_.used(name, place)};
+}
+
+void SceneBuilder::set_inner_point(Vec3 point) {
+    check_inner_point(*current_);
+    current_->inner_point = point;
+    current_->first_with_inner_point = current_->geometry->items.size();
+}
+
+void SceneBuilder::set_camera(const Camera& camera, const WordPlace& place) {
+    if (camera_place_) {
+        const bool was_parallel = scene_.camera->projection == Camera::Projection::parallel;
+        const bool is_parallel = camera.projection == Camera::Projection::parallel;
+        const SourcePlace first = source_place(*camera_place_);
+        complaints_.error(
+            place,
+            was_parallel == is_parallel
+                ? fmt::format("{} is given twice", is_parallel ? "PARALLEL" : "PROJECTION")
+                : std::string("PROJECTION and PARALLEL are both given"),
+            fmt::format("a scene has one view; the first is at {}:{}", first.file, first.line));
+        return;
+    }
+    camera_place_ = place;
+    scene_.camera = camera;
+}
+
+void SceneBuilder::add_light(const PointLight& light) {
+    scene_.lights.push_back(light);
+}
+
+Material& SceneBuilder::begin_material(std::string_view name, const WordPlace& place) {
+    const auto id = material_names_.defined(name, place, complaints_);
+    if (id)
+        scene_.materials.resize(std::max<std::size_t>(scene_.materials.size(), *id + 1));
+    Material& material = id ? scene_.materials[*id] : discarded_material_;
+    material.name = name;
+    return material;
+}
+
+void SceneBuilder::add_item(
+    ItemKind kind, std::size_t index, const WordPlace& place, Outside outside) {
+    auto& items = current_->geometry->items;
+    constexpr std::size_t most = std::numeric_limits<std::uint32_t>::max() - 1;
+    if (items.size() >= most || index >= most || current_->geometry->corners.size() > most) {
+        complaints_.error(
+            place,
+            "more than 4294967294 primitives or corners in one scene or subscene",
+            "move parts of it into subscenes and call them");
+        return;
+    }
+    items.push_back(
+        {.kind = kind,
+         .outside = outside,
+         .file = file_,
+         .index = static_cast<std::uint32_t>(index),
+         .material = current_->material,
+         .line = static_cast<std::uint32_t>(std::min<std::uint64_t>(place.line, 0xffffffff))});
+}
+
+void SceneBuilder::add(const Sphere& sphere, const WordPlace& place) {
+    auto& spheres = current_->geometry->spheres;
+    add_item(ItemKind::sphere, spheres.size(), place);
+    spheres.push_back(sphere);
+}
+
+void SceneBuilder::warn_no_area(const WordPlace& place, std::string_view what) {
+    complaints_.warn(
+        "faces without area", place, fmt::format("{} has no area and is left out", what));
+}
+
+Outside SceneBuilder::outside(Vec3 normal, Vec3 first_corner, const WordPlace& place) {
+    if (!current_->inner_point)
+        return Outside::by_normal;
+    const auto side = outside_of(normal, first_corner, *current_->inner_point);
+    if (!side)
+        complaints_.warn(
+            "inner points in a face's plane",
+            place,
+            "the inner point lies in the plane of this face and is ignored",
+            "give IP a point inside the solid, off all its faces");
+    return side.value_or(Outside::by_normal);
+}
+
+void SceneBuilder::add(const Triangle& triangle, const WordPlace& place) {
+    const auto normal = triangle_normal(triangle.corners);
+    if (!normal)
+        return warn_no_area(place, "this triangle");
+    auto& triangles = current_->geometry->triangles;
+    add_item(
+        ItemKind::triangle, triangles.size(), place, outside(*normal, triangle.corners[0], place));
+    triangles.push_back(triangle);
+}
+
+void SceneBuilder::add(const Patch& patch, const WordPlace& place) {
+    const auto normal = triangle_normal(patch.corners);
+    if (!normal)
+        return warn_no_area(place, "this patch");
+    auto& patches = current_->geometry->patches;
+    add_item(ItemKind::patch, patches.size(), place, outside(*normal, patch.corners[0], place));
+    patches.push_back(patch);
+}
+
+void SceneBuilder::add(RotationalShape shape, const WordPlace& place) {
+    auto& shapes = current_->geometry->rotational_shapes;
+    add_item(ItemKind::rotational_shape, shapes.size(), place);
+    shapes.push_back(std::move(shape));
+}
+
+void SceneBuilder::add(Mesh mesh, const WordPlace& place) {
+    auto& meshes = current_->geometry->meshes;
+    add_item(ItemKind::mesh, meshes.size(), place);
+    meshes.push_back(std::move(mesh));
+}
+
+void SceneBuilder::add_plane_polygon(
+    const Vec3* corners,
+    std::size_t count,
+    Polygon::Shape shape,
+    Vec3 normal,
+    Outside outside,
+    const WordPlace& place) {
+    Geometry& geometry = *current_->geometry;
+    const std::size_t first = geometry.corners.size();
+    geometry.corners.insert(geometry.corners.end(), corners, corners + count);
+    add_item(ItemKind::polygon, geometry.polygons.size(), place, outside);
+    geometry.polygons.push_back(
+        {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count), shape, normal});
+}
+
+void SceneBuilder::add_split_quadrangle(
+    const std::array<Vec3, 4>& corners, const WordPlace& place) {
+    complaints_.warn(
+        "quadrangles that are not plane",
+        place,
+        "the corners are not in one plane: split into p1 p2 p3 and p1 p3 p4",
+        "write two P3 to say where the fold is");
+    const Triangle first = {{corners[0], corners[1], corners[2]}};
+    const Triangle second = {{corners[0], corners[2], corners[3]}};
+    const auto first_normal = triangle_normal(first.corners);
+    const auto second_normal = triangle_normal(second.corners);
+    // Where the inner point is on different sides of the two halves, or in the plane of one, each
+    // is a face with a side of its own.
+    const auto side = [&](const Triangle& half, const std::optional<Vec3>& normal) {
+        return normal && current_->inner_point
+            ? outside_of(*normal, half.corners[0], *current_->inner_point)
+            : std::nullopt;
+    };
+    const auto first_side = side(first, first_normal);
+    if (!first_normal || !second_normal || first_side != side(second, second_normal)) {
+        add(first, place);
+        add(second, place);
+        return;
+    }
+    add_plane_polygon(
+        corners.data(),
+        4,
+        Polygon::Shape::split_quadrangle,
+        *first_normal,
+        outside(*first_normal, corners[0], place),
+        place);
+}
+
+namespace {
+
+std::string crossing_problem(const PolygonForm& form, std::size_t count) {
+    const auto [a, b] = form.crossing_sides;
+    return fmt::format(
+        "the sides from corner {} to {} and from corner {} to {} cross",
+        a + 1,
+        (a + 1) % count + 1,
+        b + 1,
+        (b + 1) % count + 1);
+}
+
+} // namespace
+
+void SceneBuilder::add_quadrangle(const std::array<Vec3, 4>& corners, const WordPlace& place) {
+    const PolygonForm form = quadrangle_form(corners);
+    switch (form.kind) {
+    case PolygonForm::Kind::not_plane:
+        return add_split_quadrangle(corners, place);
+    case PolygonForm::Kind::no_area:
+        return warn_no_area(place, "this quadrangle");
+    case PolygonForm::Kind::crossing:
+    case PolygonForm::Kind::too_involved:
+        complaints_.error(
+            place, crossing_problem(form, 4), "give the corners in their order round the face");
+        return;
+    case PolygonForm::Kind::convex:
+    case PolygonForm::Kind::simple:
+        break;
+    }
+    add_plane_polygon(
+        corners.data(),
+        4,
+        form.kind == PolygonForm::Kind::convex ? Polygon::Shape::convex : Polygon::Shape::simple,
+        form.normal,
+        outside(form.normal, corners[0], place),
+        place);
+}
+
+void SceneBuilder::add_polygon(const std::vector<Vec3>& corners, const WordPlace& place) {
+    const PolygonForm form = polygon_form(corners);
+    switch (form.kind) {
+    case PolygonForm::Kind::not_plane:
+        complaints_.error(
+            place,
+            "the polygon's corners are not in one plane",
+            "they may be off it by a millionth of the polygon's size; split it into plane ones");
+        return;
+    case PolygonForm::Kind::no_area:
+        return warn_no_area(place, "this polygon");
+    case PolygonForm::Kind::crossing:
+        complaints_.error(
+            place,
+            crossing_problem(form, corners.size()),
+            "give the corners in their order round the polygon");
+        return;
+    case PolygonForm::Kind::too_involved:
+        complaints_.error(
+            place,
+            "so many of the polygon's sides lie side by side that checking whether they cross "
+            "takes too long",
+            "split it into several");
+        return;
+    case PolygonForm::Kind::convex:
+    case PolygonForm::Kind::simple:
+        break;
+    }
+    add_plane_polygon(
+        corners.data(),
+        corners.size(),
+        form.kind == PolygonForm::Kind::convex ? Polygon::Shape::convex : Polygon::Shape::simple,
+        form.normal,
+        outside(form.normal, corners[0], place),
+        place);
+}
+
+void SceneBuilder::add_call(
+    std::string_view name,
+    const WordPlace& name_place,
+    const Placement& placement,
+    const WordPlace& place) {
+    const std::uint32_t id = subscene_names_.used(name, name_place);
+    add_call(SubsceneId{id}, placement, place);
+}
+
+void SceneBuilder::add_call(
+    SubsceneId subscene, const Placement& placement, const WordPlace& place) {
+    auto& calls = current_->geometry->calls;
+    add_item(ItemKind::subscene_call, calls.size(), place);
+    calls.push_back({subscene, placement.to_parent, placement.from_parent});
+}
+
+SubsceneId SceneBuilder::add_mesh_subscene(std::string name, Mesh mesh, const WordPlace& place) {
+    const std::uint32_t id = subscene_names_.unnamed();
+    subscenes_.resize(std::max<std::size_t>(subscenes_.size(), id + 1));
+    Geometry& geometry = subscenes_[id];
+    geometry.name = std::move(name);
+    geometry.meshes.push_back(std::move(mesh));
+    geometry.items.push_back(
+        {.kind = ItemKind::mesh,
+         .file = file_,
+         .line = static_cast<std::uint32_t>(std::min<std::uint64_t>(place.line, 0xffffffff))});
+    return SubsceneId{id};
+}
+
+} // namespace vera

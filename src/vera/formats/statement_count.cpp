@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vera/formats/statement_count.h"
+
+#include "vera/formats/vera_keywords.h"
+
+#include <array>
+
+namespace vera {
+
+namespace {
+
+/// True for the letters that keywords of geometry, and those that end scenes, begin with.
+constexpr std::array<bool, 256> first_letters = [] {
+    std::array<bool, 256> letters = {};
+    for (const char letter : std::string_view("PSRMCIL"))
+        letters[static_cast<unsigned char>(letter)] = true;
+    return letters;
+}();
+
+bool is_word_letter(char letter) {
+    return static_cast<unsigned char>(letter) > ' ';
+}
+
+std::size_t corner_count(std::string_view text) {
+    constexpr std::size_t most = 100'000'000;
+    std::size_t count = 0;
+    std::size_t i = 0;
+    while (i < text.size() && !is_word_letter(text[i]))
+        ++i;
+    for (; i < text.size() && text[i] >= '0' && text[i] <= '9' && count < most; ++i)
+        count = 10 * count + static_cast<std::size_t>(text[i] - '0');
+    // Never more than there is text for: six bytes a corner.
+    return count < text.size() / 6 ? count : 0;
+}
+
+} // namespace
+
+StatementCounts count_statements(std::string_view text, CountFor scene) {
+    StatementCounts counts;
+    char before = ' ';
+    for (std::size_t i = 0; i < text.size(); before = text[i], ++i) {
+        if (is_word_letter(before) || !first_letters[static_cast<unsigned char>(text[i])])
+            continue;
+        std::size_t end = i;
+        while (end < text.size() && end < i + 11 && is_word_letter(text[end]))
+            ++end;
+        const auto statement = statement_named(text.substr(i, end - i));
+        if (!statement)
+            continue;
+        switch (*statement) {
+        case Statement::sphere:
+            ++counts.spheres;
+            break;
+        case Statement::triangle:
+            ++counts.triangles;
+            break;
+        case Statement::quadrangle:
+            ++counts.polygons;
+            counts.corners += 4;
+            break;
+        case Statement::polygon:
+            ++counts.polygons;
+            counts.corners += corner_count(text.substr(end));
+            break;
+        case Statement::patch:
+            ++counts.patches;
+            break;
+        case Statement::rotational_shape:
+        case Statement::subscene_call:
+        case Statement::mesh:
+            ++counts.others;
+            break;
+        case Statement::subscene:
+            return counts;
+        case Statement::material:
+        case Statement::light:
+        case Statement::projection:
+        case Statement::parallel:
+            if (scene == CountFor::subscene)
+                return counts;
+            break;
+        case Statement::material_change:
+        case Statement::inner_point:
+        case Statement::include:
+            break;
+        }
+    }
+    return counts;
+}
+
+} // namespace vera
