@@ -39,11 +39,15 @@ Image read_pfm(std::span<const std::byte> bytes, const std::string& name);
 /// Throws the InputError for a picture that cannot be read.
 [[noreturn]] void throw_damaged(const std::string& name, const std::string& problem);
 
-/// Throws InputError when a picture cannot be as large as a file of so many bytes says it is: no
-/// method packs more than some thousand pixels into a byte. Keeps a damaged header from costing
-/// all memory.
+/// Throws InputError when a picture cannot be as large as a file of so many bytes says it is, a
+/// pixel taking so many bits before deflate or the like packs them. Keeps a damaged header from
+/// costing all memory.
 void check_plausible(
-    std::size_t width, std::size_t height, std::size_t file_bytes, const std::string& name);
+    std::size_t width,
+    std::size_t height,
+    std::size_t pixel_bits,
+    std::size_t file_bytes,
+    const std::string& name);
 
 /// The text with what is not printable ASCII replaced by '?', at most so many bytes, and never
 /// empty: a name that every format can hold.

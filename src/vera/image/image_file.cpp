@@ -203,11 +203,15 @@ void throw_damaged(const std::string& name, const std::string& problem) {
 }
 
 void check_plausible(
-    std::size_t width, std::size_t height, std::size_t file_bytes, const std::string& name) {
-    // One colour everywhere, at a bit a pixel: deflate makes a byte of about 1032.
-    constexpr std::size_t pixels_a_byte = 8 * 1040;
+    std::size_t width,
+    std::size_t height,
+    std::size_t pixel_bits,
+    std::size_t file_bytes,
+    const std::string& name) {
+    // One colour everywhere: deflate makes a byte of about 1032.
+    constexpr std::size_t most_packed = 1040;
     constexpr std::size_t slack = 1 << 16;
-    const std::size_t most = slack + pixels_a_byte * file_bytes;
+    const std::size_t most = slack + 8 * most_packed * file_bytes / pixel_bits;
     if (width == 0 || height == 0)
         throw_damaged(name, "it has no pixels");
     if (height > most / width)

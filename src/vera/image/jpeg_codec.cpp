@@ -252,7 +252,9 @@ Image read_jpeg(std::span<const std::byte> bytes, const std::string& name) {
         throw_damaged(name, errors.message.data());
     const std::size_t width = decompressor.jpeg.image_width;
     const std::size_t height = decompressor.jpeg.image_height;
-    check_plausible(width, height, bytes.size(), name);
+    // One colour everywhere takes 6 bits for 256 pixels, and fewer in a progressive picture.
+    constexpr std::size_t pixel_bits = 8;
+    check_plausible(width, height, pixel_bits, bytes.size(), name);
     Image image = blank_image(width, height, SampleType::integer8);
     jpeg_progress_mgr progress = {};
     progress.progress_monitor = limit_scans;

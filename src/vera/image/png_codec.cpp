@@ -165,6 +165,7 @@ struct Header {
     png_uint_32 width = 0;
     png_uint_32 height = 0;
     int bit_depth = 0;
+    std::size_t stored_bits = 0; ///< of a pixel
 };
 
 /// Reads up to the pixels, and has them turned into red, green and blue of 8 or 16 bits.
@@ -177,6 +178,8 @@ bool decode_header(const Reader& reader, Header& header) noexcept {
     header.width = png_get_image_width(png, reader.info);
     header.height = png_get_image_height(png, reader.info);
     header.bit_depth = png_get_bit_depth(png, reader.info) == 16 ? 16 : 8;
+    header.stored_bits =
+        std::size_t{png_get_bit_depth(png, reader.info)} * png_get_channels(png, reader.info);
     png_set_expand(png);
     png_set_gray_to_rgb(png);
     png_set_strip_alpha(png);
@@ -239,7 +242,7 @@ Image read_png(std::span<const std::byte> bytes, const std::string& name) {
     Header header;
     if (!decode_header(reader, header))
         throw_damaged(name, stream.message.data());
-    check_plausible(header.width, header.height, bytes.size(), name);
+    check_plausible(header.width, header.height, header.stored_bits, bytes.size(), name);
     Image image = blank_image(
         header.width,
         header.height,
