@@ -21,55 +21,59 @@ bool is_digit(char letter) {
 /// The number's parts as they are written, without sign: digits * 10^exponent, if digits are few.
 struct Decimal {
     std::uint64_t digits = 0;
-    int digit_count = 0; ///< significant ones, without leading zeros; past 19, digits is not valid
+    std::int64_t digit_count = 0; ///< without leading zeros; past 19, digits is not valid
     std::int64_t exponent = 0;
     const char* end = nullptr;
 };
 
+/// Reads digits, as further ones of the decimal, and returns their end.
+const char* take_digits(const char* p, const char* end, Decimal& decimal) {
+    for (; p != end && is_digit(*p); ++p) {
+        if (*p == '0' && decimal.digit_count == 0)
+            continue;
+        if (decimal.digit_count < 19)
+            decimal.digits = 10 * decimal.digits + static_cast<std::uint64_t>(*p - '0');
+        ++decimal.digit_count;
+    }
+    return p;
+}
+
+/// Reads an exponent into the decimal, if there is one, and returns its end; else p.
+const char* take_exponent(const char* p, const char* end, Decimal& decimal) {
+    if (p == end || (*p != 'e' && *p != 'E'))
+        return p;
+    const char* digit = p + 1;
+    const bool negative = digit != end && *digit == '-';
+    if (digit != end && (*digit == '-' || *digit == '+'))
+        ++digit;
+    if (digit == end || !is_digit(*digit))
+        return p;
+
+    // Far more than a file has digits to make up for it.
+    constexpr std::int64_t enough = 100'000'000'000'000'000;
+    std::int64_t written = 0;
+    for (; digit != end && is_digit(*digit); ++digit)
+        if (written < enough)
+            written = 10 * written + (*digit - '0');
+    decimal.exponent += negative ? -written : written;
+    return digit;
+}
+
 /// Nothing to be read at all when the end is the beginning.
 Decimal scan_decimal(const char* begin, const char* end) {
     Decimal decimal;
-    const char* p = begin;
-    bool any_digit = false;
-    const auto take_digit = [&](char letter) {
-        any_digit = true;
-        if (letter != '0' || decimal.digit_count > 0) {
-            if (decimal.digit_count < 19)
-                decimal.digits = 10 * decimal.digits + static_cast<std::uint64_t>(letter - '0');
-            if (decimal.digit_count < 1000)
-                ++decimal.digit_count;
-        }
-    };
-    while (p != end && is_digit(*p))
-        take_digit(*p++);
+    const char* p = take_digits(begin, end, decimal);
+    bool any_digit = p != begin;
     if (p != end && *p == '.') {
-        const char* const point = p++;
-        while (p != end && is_digit(*p)) {
-            take_digit(*p++);
-            --decimal.exponent;
-        }
-        if (!any_digit)
-            p = point;
-    }
-    if (!any_digit) {
-        decimal.end = begin;
-        return decimal;
-    }
-    decimal.end = p;
-    if (p != end && (*p == 'e' || *p == 'E')) {
-        ++p;
-        const bool negative = p != end && *p == '-';
-        if (p != end && (*p == '-' || *p == '+'))
-            ++p;
-        if (p != end && is_digit(*p)) {
-            std::int64_t written = 0;
-            for (; p != end && is_digit(*p); ++p)
-                if (written < 1'000'000'000)
-                    written = 10 * written + (*p - '0');
-            decimal.exponent += negative ? -written : written;
-            decimal.end = p;
+        const char* const fraction = p + 1;
+        const char* const rest = take_digits(fraction, end, decimal);
+        if (any_digit || rest != fraction) {
+            any_digit = true;
+            decimal.exponent = fraction - rest;
+            p = rest;
         }
     }
+    decimal.end = any_digit ? take_exponent(p, end, decimal) : begin;
     return decimal;
 }
 
