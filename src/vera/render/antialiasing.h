@@ -17,10 +17,10 @@ namespace vera {
 /// another surface (see same_surface), or a colour that differs by more than the tolerance from its
 /// own, unless the colours of one surface change evenly from that neighbour to the opposite one.
 ///
-/// A thing is thin where one of a pixel's rays sees it but fewer than 3 of the 9 centres there do.
-/// The 8 neighbours of such a pixel are refined as well, and so on along the thing. Where it lies
-/// before a plain background, which 5 of the 9 centres see, they get 4 times as many rays (not more
-/// than 256), so that a tenth of a pixel is not missed.
+/// A thing is thin where one of a pixel's rays sees it but fewer than 5 of the 5 x 5 centres around
+/// do. The 8 neighbours of such a pixel are refined as well, and so on along the thing. Where it
+/// lies before a plain background, which 13 of the centres see, they get 4 times as many rays (not
+/// more than 256), so that a tenth of a pixel is not missed.
 ///
 /// Which pixels are refined follows from these rules alone, not from the order of work.
 RenderStatistics render_antialiased(

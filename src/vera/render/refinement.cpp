@@ -5,36 +5,43 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace vera {
 
 namespace {
 
-/// Of a window's 3 x 3 places row by row, the middle one, and the four pairs of opposite ones.
-constexpr std::size_t middle = 4;
-constexpr std::array<std::array<std::size_t, 2>, 4> opposites = {{{3, 5}, {1, 7}, {0, 8}, {2, 6}}};
+/// Pixels around a tile of which the centres are known.
+constexpr std::size_t frame = 2;
+
+/// Of the 5 x 5 places of a window row by row, the middle one, and the pairs of opposite ones among
+/// its 8 neighbours.
+constexpr std::size_t middle = 12;
+constexpr std::array<std::array<std::size_t, 2>, 4> opposites = {
+    {{11, 13}, {7, 17}, {6, 18}, {8, 16}}};
 
 double largest_difference(Color a, Color b) {
     return std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)});
 }
 
+/// Whether at least so many places of the window show the same surface as one does.
 template <typename Window>
-std::ptrdiff_t count_of_same(const Window& window, const Seen& one) {
-    return std::count_if(
-        window.begin(), window.end(), [&](const Seen* other) { return same_surface(one, *other); });
+bool shows(const Window& window, const Seen& one, int wanted) {
+    for (const Seen* other : window)
+        if (same_surface(one, *other) && --wanted == 0)
+            return true;
+    return false;
 }
 
-/// A half plane that reaches into a pixel covers at least 3 centres around it.
 template <typename Window>
 bool is_thin(const Window& window, const Seen& one) {
-    return count_of_same(window, one) < 3;
+    return !shows(window, one, 5);
 }
 
 template <typename Window>
 Refinement refinement_of_thin(const Window& window) {
-    const bool is_plain = std::any_of(window.begin(), window.end(), [&](const Seen* one) {
-        return count_of_same(window, *one) >= 5;
-    });
+    const bool is_plain = std::any_of(
+        window.begin(), window.end(), [&](const Seen* one) { return shows(window, *one, 13); });
     return is_plain ? Refinement::thin : Refinement::edge;
 }
 
@@ -64,7 +71,7 @@ void TileRefiner::refine(const Tile& tile, std::span<const RefinementRequest> re
 
 void TileRefiner::begin(const Tile& tile) {
     tile_ = tile;
-    const std::size_t framed = (tile.width + 2) * (tile.height + 2);
+    const std::size_t framed = (tile.width + 2 * frame) * (tile.height + 2 * frame);
     centers_.resize(framed);
     is_known_.assign(framed, 0);
     pixels_.assign(tile.width * tile.height, {});
@@ -72,7 +79,7 @@ void TileRefiner::begin(const Tile& tile) {
 }
 
 std::size_t TileRefiner::center_of(std::size_t pixel) const {
-    return (pixel / tile_.width + 1) * (tile_.width + 2) + pixel % tile_.width + 1;
+    return (pixel / tile_.width + frame) * (tile_.width + 2 * frame) + pixel % tile_.width + frame;
 }
 
 std::uint64_t TileRefiner::picture_pixel(std::size_t pixel) const {
@@ -88,36 +95,74 @@ std::uint32_t TileRefiner::sample_count(Refinement refinement) const {
 }
 
 TileRefiner::Window TileRefiner::window(std::size_t pixel) const {
-    const std::size_t stride = tile_.width + 2;
-    const Seen* corner = &centers_[center_of(pixel) - stride - 1];
+    const std::size_t stride = tile_.width + 2 * frame;
+    const Seen* corner = &centers_[center_of(pixel) - frame * stride - frame];
     Window window;
     for (std::size_t i = 0; i < window.size(); ++i)
-        window[i] = corner + i / 3 * stride + i % 3;
+        window[i] = corner + i / window_side * stride + i % window_side;
     return window;
 }
 
-void TileRefiner::see_all_centers() {
-    rays_.clear();
-    for (std::size_t y = 0; y < tile_.height + 2; ++y)
-        for (std::size_t x = 0; x < tile_.width + 2; ++x)
-            rays_.push_back(picture_.raster.ray(
-                static_cast<double>(tile_.x + x) - 1, static_cast<double>(tile_.y + y) - 1));
-    trace_samples();
-    const std::size_t pixels = tile_.width * tile_.height;
-    tracer_.statistics.extra_view_rays += rays_.size() - pixels;
+QueryRay TileRefiner::center_ray(std::size_t center) const {
+    const std::size_t stride = tile_.width + 2 * frame;
+    return picture_.raster.ray(
+        static_cast<double>(tile_.x + center % stride) - frame,
+        static_cast<double>(tile_.y + center / stride) - frame);
+}
 
-    for (std::size_t i = 0; i < centers_.size(); ++i) {
-        centers_[i] = seen(hits_[i], surfaces_[i]);
-        centers_[i].color = clamped(colors_[i]);
-        is_known_[i] = 1;
-        colors_[i] = centers_[i].color;
+void TileRefiner::see_all_centers() {
+    // Colours are compared across the tile's border, by one pixel; farther out it matters only
+    // what is seen.
+    const std::size_t stride = tile_.width + 2 * frame;
+    rays_.clear();
+    targets_.clear();
+    for (std::size_t y = frame - 1; y < tile_.height + frame + 1; ++y)
+        for (std::size_t x = frame - 1; x < tile_.width + frame + 1; ++x) {
+            targets_.push_back(y * stride + x);
+            rays_.push_back(center_ray(targets_.back()));
+        }
+    trace_samples();
+    tracer_.statistics.extra_view_rays += rays_.size() - pixels_.size();
+    for (std::size_t i = 0; i < targets_.size(); ++i) {
+        Seen& center = centers_[targets_[i]];
+        center = seen(hits_[i], surfaces_[i]);
+        center.color = clamped(colors_[i]);
+        is_known_[targets_[i]] = 1;
     }
-    for (std::size_t y = 0; y < tile_.height; ++y)
-        develop(
-            std::span<const Color>(colors_).subspan(center_of(y * tile_.width), tile_.width),
-            picture_.image,
-            tile_.x,
-            tile_.y + y);
+    targets_.resize(centers_.size());
+    std::iota(targets_.begin(), targets_.end(), std::size_t{0});
+    see_unknown_centers();
+
+    for (std::size_t y = 0; y < tile_.height; ++y) {
+        colors_.clear();
+        for (std::size_t x = 0; x < tile_.width; ++x)
+            colors_.push_back(centers_[center_of(y * tile_.width + x)].color);
+        develop(colors_, picture_.image, tile_.x, tile_.y + y);
+    }
+}
+
+void TileRefiner::see_unknown_centers() {
+    rays_.clear();
+    std::size_t unknown = 0;
+    for (const std::size_t center : targets_) {
+        if (is_known_[center] != 0)
+            continue;
+        is_known_[center] = 1;
+        targets_[unknown++] = center;
+        rays_.push_back(center_ray(center));
+    }
+    targets_.resize(unknown);
+    probe();
+    for (std::size_t i = 0; i < targets_.size(); ++i)
+        centers_[targets_[i]] = seen(hits_[i], surfaces_[i]);
+}
+
+void TileRefiner::probe() {
+    hits_.resize(rays_.size());
+    surfaces_.resize(rays_.size());
+    tracer_.nearest(rays_, hits_);
+    tracer_.surfaces(rays_, hits_, surfaces_);
+    tracer_.statistics.probe_rays += rays_.size();
 }
 
 void TileRefiner::find_edges() {
@@ -161,12 +206,7 @@ void TileRefiner::send_probes() {
             static_cast<double>(x), static_cast<double>(y), probe_position(x, y)));
         targets_.push_back(pixel);
     }
-    hits_.resize(rays_.size());
-    surfaces_.resize(rays_.size());
-    tracer_.nearest(rays_, hits_);
-    tracer_.surfaces(rays_, hits_, surfaces_);
-    tracer_.statistics.probe_rays += rays_.size();
-
+    probe();
     for (std::size_t i = 0; i < rays_.size(); ++i) {
         const Window around = window(targets_[i]);
         if (is_thin(around, seen(hits_[i], surfaces_[i])))
@@ -234,31 +274,14 @@ void TileRefiner::refine_pending() {
 }
 
 void TileRefiner::see_centers_around(std::span<const Job> jobs) {
-    rays_.clear();
     targets_.clear();
-    const std::size_t stride = tile_.width + 2;
+    const std::size_t stride = tile_.width + 2 * frame;
     for (const Job& job : jobs) {
-        const std::size_t corner = center_of(job.pixel) - stride - 1;
-        for (std::size_t i = 0; i < 9; ++i) {
-            const std::size_t center = corner + i / 3 * stride + i % 3;
-            if (is_known_[center] != 0)
-                continue;
-            is_known_[center] = 1;
-            targets_.push_back(center);
-            rays_.push_back(picture_.raster.ray(
-                static_cast<double>(tile_.x + center % stride) - 1,
-                static_cast<double>(tile_.y + center / stride) - 1));
-        }
+        const std::size_t corner = center_of(job.pixel) - frame * stride - frame;
+        for (std::size_t i = 0; i < window_side * window_side; ++i)
+            targets_.push_back(corner + i / window_side * stride + i % window_side);
     }
-    if (rays_.empty())
-        return;
-    hits_.resize(rays_.size());
-    surfaces_.resize(rays_.size());
-    tracer_.nearest(rays_, hits_);
-    tracer_.surfaces(rays_, hits_, surfaces_);
-    tracer_.statistics.probe_rays += rays_.size();
-    for (std::size_t i = 0; i < targets_.size(); ++i)
-        centers_[targets_[i]] = seen(hits_[i], surfaces_[i]);
+    see_unknown_centers();
 }
 
 void TileRefiner::trace_samples() {

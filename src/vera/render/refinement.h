@@ -72,7 +72,9 @@ private:
         Color sum; ///< of the samples
     };
 
-    using Window = std::array<const Seen*, 9>;
+    /// The centres in a pixel's surroundings, row by row.
+    static constexpr std::size_t window_side = 5;
+    using Window = std::array<const Seen*, window_side * window_side>;
 
     void begin(const Tile& tile);
     void see_all_centers();
@@ -80,6 +82,8 @@ private:
     void send_probes();
     void refine_pending();
     void see_centers_around(std::span<const Job> jobs);
+    void see_unknown_centers();
+    void probe();
     void trace_samples();
     void add_samples(const Job& job, std::size_t first_ray);
     void follow_thin_things(const Job& job, std::size_t first_ray);
@@ -89,6 +93,7 @@ private:
     void want_neighbours(std::size_t pixel, Refinement refinement);
     bool differs(const Window& window) const;
     Window window(std::size_t pixel) const;
+    QueryRay center_ray(std::size_t center) const;
     std::size_t center_of(std::size_t pixel) const;
     std::uint64_t picture_pixel(std::size_t pixel) const;
     std::uint32_t sample_count(Refinement refinement) const;
@@ -97,7 +102,7 @@ private:
     GenerationTracer tracer_;
 
     Tile tile_;
-    std::vector<Seen> centers_;          ///< of the tile and a frame of one pixel around it
+    std::vector<Seen> centers_;          ///< of the tile and a frame of two pixels around it
     std::vector<std::uint8_t> is_known_; ///< which of them
     std::vector<Pixel> pixels_;
     std::vector<std::size_t> pending_;
