@@ -29,10 +29,12 @@ constexpr std::uint32_t second_sobol(std::uint32_t i) {
 /// Owen's scrambling, each binary digit flipped at random by the digits above it, which leaves a
 /// net a net. In reversed bits that is a function in which a bit depends on lower ones alone, as in
 /// sums and in products with even numbers (Laine and Karras 2011).
-constexpr std::uint32_t owen_scrambled(std::uint32_t bits, std::uint32_t seed) {
-    std::uint32_t low_first = reversed(bits) + seed;
+constexpr std::uint32_t owen_scrambled(std::uint32_t bits, std::uint64_t seed) {
+    const auto offset = static_cast<std::uint32_t>(seed & 0xffffffffU);
+    const auto factor = static_cast<std::uint32_t>(seed >> 32) | 1U;
+    std::uint32_t low_first = reversed(bits) + offset;
     low_first ^= low_first * 0x9e3779b8U;
-    low_first *= seed | 1U;
+    low_first *= factor;
     low_first ^= low_first * 0x2c1b3c6cU;
     low_first ^= low_first * 0x297a2d3aU;
     return reversed(low_first);
@@ -41,12 +43,9 @@ constexpr std::uint32_t owen_scrambled(std::uint32_t bits, std::uint32_t seed) {
 } // namespace
 
 SamplePosition net_position(std::uint64_t pixel, std::uint32_t i) {
-    const std::uint64_t seeds = random(0, pixel, 0);
-    const std::uint32_t across =
-        owen_scrambled(reversed(i), static_cast<std::uint32_t>(seeds & 0xffffffffU));
-    const std::uint32_t down =
-        owen_scrambled(second_sobol(i), static_cast<std::uint32_t>(seeds >> 32));
-    return {to_unit * across, to_unit * down};
+    return {
+        to_unit * owen_scrambled(reversed(i), random(0, pixel, 0)),
+        to_unit * owen_scrambled(second_sobol(i), random(0, pixel, 1))};
 }
 
 SamplePosition probe_position(std::size_t x, std::size_t y) {

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vera/accel/brute_force.h"
+#include "vera/accel/grid_tree.h"
+#include "vera/render/render_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <vector>
+
+#include "test_scenes.h"
+#include <gtest/gtest.h>
+
+namespace vera {
+namespace {
+
+/// A bit of everything: glass, mirrors, highlights, patches, a thin wire, two lights, a firmament.
+/// Lengths are multiplied by scale, intensities by its square.
+struct Room : SceneMaker {
+    explicit Room(double scale = 1) {
+        const auto at = [&](double x, double y, double z) { return scale * Vec3{x, y, z}; };
+        Material shiny = diffuse({0.4, 0.3, 0.2});
+        shiny.spc = 0.8;
+        shiny.rab = {0.3, 0.3, 0.3};
+        material(shiny);
+        polygon({at(-9, 0, -9), at(-9, 0, 9), at(9, 0, 9), at(9, 0, -9)});
+        material(glass({0.8, 0.9, 0.7}, 1.5));
+        sphere(at(-1, 1.5, 0), 1.25 * scale);
+        material(mirror({0.9, 0.8, 0.7}));
+        sphere(at(2, 1, -2), scale);
+        Material dull = diffuse({0.7, 0.2, 0.2});
+        dull.arf = {0.1, 0.3, 0.1};
+        dull.san = {0.1, 0, 0};
+        material(dull);
+        const Vec3 leaning = normalized({0.3, 0.1, 1});
+        patch({at(-4, 0, -4), at(4, 0, -4), at(0, 5, -4)}, {Vec3{-0.3, 0, 1}, leaning, {0, 1, 1}});
+        material(luminous({0.2, 0.9, 0.4}));
+        const double thin = 0.004;
+        polygon({at(-3, 3, 2), at(3, 1, 2), at(3, 1 + thin, 2), at(-3, 3 + thin, 2)});
+        light(at(3, 6, 5), 30 * scale * scale);
+        light(at(-5, 4, 1), 10 * scale * scale, {1, 0.5, 0.25});
+
+        Camera camera;
+        camera.viewpoint = at(0, 2, 9);
+        camera.lower_left = at(-2, 0.25, 5);
+        camera.lower_right = at(2, 0.25, 5);
+        camera.upper_left = at(-2, 3.25, 5);
+        scene.camera = camera;
+        finish();
+    }
+
+    static PictureSettings settings() {
+        PictureSettings settings;
+        settings.width = 100;
+        settings.height = 75;
+        settings.depth = 5;
+        settings.ambient = {0.2, 0.2, 0.25};
+        settings.firmament = Firmament{{0.2, 0.3, 0.8}, {0.7, 0.7, 0.9}, {0.3, 0.2, 0.1}};
+        return settings;
+    }
+
+    RenderResult rendered(const PictureSettings& settings, const RayIndex& index) const {
+        return render_scene(scene, *scene.camera, index, settings, SampleType::integer8);
+    }
+
+    RenderResult rendered(const PictureSettings& settings) const {
+        return rendered(settings, *make_brute_force(scene));
+    }
+};
+
+std::vector<std::uint8_t> bytes(const RenderResult& result) {
+    return std::get<std::vector<std::uint8_t>>(result.image.samples);
+}
+
+std::vector<PictureSettings> settings_with_and_without_antialiasing() {
+    PictureSettings with = Room::settings();
+    with.antialiasing.samples = 4;
+    PictureSettings without = with;
+    without.antialiasing.on = false;
+    return {with, without};
+}
+
+TEST(RenderScene, GivesTheSameBytesAndCountsForAnyNumberOfThreads) {
+    const Room room;
+    for (const PictureSettings& settings : settings_with_and_without_antialiasing()) {
+        std::optional<RenderResult> first;
+        for (const std::size_t threads : {1U, 2U, 7U}) {
+            const ThreadLimit limit(threads);
+            const RenderResult result = room.rendered(settings);
+            if (!first)
+                first = result;
+            EXPECT_EQ(bytes(result), bytes(*first)) << threads << " threads";
+            EXPECT_EQ(result.statistics.view_rays, first->statistics.view_rays);
+            EXPECT_EQ(result.statistics.shadow_rays, first->statistics.shadow_rays);
+            EXPECT_EQ(result.statistics.queries.tests, first->statistics.queries.tests);
+        }
+    }
+}
+
+TEST(RenderScene, GivesTheSameBytesForEveryIndex) {
+    const Room room;
+    const auto brute_force = make_brute_force(room.scene);
+    const auto grids = make_grid_tree(room.scene);
+    for (const PictureSettings& settings : settings_with_and_without_antialiasing())
+        EXPECT_EQ(
+            bytes(room.rendered(settings, *brute_force)), bytes(room.rendered(settings, *grids)));
+}
+
+TEST(RenderScene, GivesTheSameBytesInUnitsOfAPowerOfTwo) {
+    for (const PictureSettings& settings : settings_with_and_without_antialiasing()) {
+        const auto expected = bytes(Room().rendered(settings));
+        EXPECT_EQ(bytes(Room(0x1p20).rendered(settings)), expected);
+        EXPECT_EQ(bytes(Room(0x1p-20).rendered(settings)), expected);
+    }
+}
+
+TEST(RenderScene, GivesNearlyTheSameBytesInUnitsOfAPowerOfTen) {
+    PictureSettings settings = Room::settings();
+    settings.antialiasing.on = false;
+    const auto expected = bytes(Room().rendered(settings));
+    for (const double scale : {1e6, 1e-6}) {
+        const auto actual = bytes(Room(scale).rendered(settings));
+        std::size_t different = 0;
+        for (std::size_t i = 0; i < expected.size(); ++i)
+            different += std::abs(expected[i] - actual[i]) > 1;
+        EXPECT_LE(different, expected.size() / 1000) << "scale " << scale;
+    }
+}
+
+TEST(RenderScene, CountsARayAPixelWithoutAntialiasing) {
+    PictureSettings settings = Room::settings();
+    settings.antialiasing.on = false;
+    settings.depth = 1;
+    const RenderStatistics statistics = Room().rendered(settings).statistics;
+    EXPECT_EQ(statistics.view_rays, 7500U);
+    EXPECT_EQ(statistics.extra_view_rays, 0U);
+    EXPECT_EQ(statistics.probe_rays, 0U);
+    EXPECT_EQ(statistics.mirrored_rays, 0U);
+    EXPECT_EQ(statistics.queries.rays, statistics.view_rays + statistics.shadow_rays);
+    EXPECT_FALSE(Room().rendered(settings).exposure);
+}
+
+TEST(RenderScene, CountsTheExtraRaysOfAntialiasing) {
+    const RenderStatistics statistics = Room().rendered(Room::settings()).statistics;
+    EXPECT_EQ(statistics.view_rays - statistics.extra_view_rays, 7500U);
+    EXPECT_GT(statistics.refined_pixels, 400U);
+    EXPECT_LT(statistics.refined_pixels, 5000U);
+    EXPECT_EQ(
+        statistics.queries.rays,
+        statistics.view_rays + statistics.probe_rays + statistics.shadow_rays
+            + statistics.mirrored_rays + statistics.refracted_rays);
+}
+
+TEST(RenderScene, ScalesTheLightToTheExposureAskedFor) {
+    const Room room;
+    PictureSettings settings = Room::settings();
+    settings.antialiasing.on = false;
+    settings.exposure = 0;
+    EXPECT_EQ(bytes(room.rendered(settings)), [&] {
+        PictureSettings unmeasured = settings;
+        unmeasured.exposure.reset();
+        return bytes(room.rendered(unmeasured));
+    }());
+
+    settings.exposure = 0.95;
+    const RenderResult scaled = room.rendered(settings);
+    ASSERT_TRUE(scaled.exposure);
+    EXPECT_TRUE(scaled.exposure->reachable);
+    EXPECT_NE(scaled.exposure->factor, 1);
+
+    Room brighter;
+    for (PointLight& light : brighter.scene.lights)
+        light.intensity *= scaled.exposure->factor;
+    settings.ambient = scaled.exposure->factor * settings.ambient;
+    settings.exposure.reset();
+    EXPECT_EQ(bytes(brighter.rendered(settings)), bytes(scaled));
+}
+
+TEST(RenderScene, ReportsProgressThatNeverFallsAndEndsAtOne) {
+    const Room room;
+    const auto index = make_brute_force(room.scene);
+    for (const PictureSettings& settings : settings_with_and_without_antialiasing()) {
+        std::vector<double> reports;
+        render_scene(
+            room.scene,
+            *room.scene.camera,
+            *index,
+            settings,
+            SampleType::integer8,
+            [&](double done) { reports.push_back(done); });
+        ASSERT_GE(reports.size(), 3U);
+        EXPECT_TRUE(std::is_sorted(reports.begin(), reports.end()));
+        EXPECT_GT(reports.front(), 0);
+        EXPECT_EQ(reports.back(), 1);
+    }
+}
+
+TEST(RenderScene, StopsSoonAfterItIsCancelled) {
+    const Room room;
+    const auto index = make_brute_force(room.scene);
+    PictureSettings settings = Room::settings();
+    settings.width = settings.height = 4096; // would take many seconds
+    for (const bool antialiasing : {false, true}) {
+        settings.antialiasing.on = antialiasing;
+        CancelFlag cancel;
+        double done_at_most = 0;
+        EXPECT_THROW(
+            render_scene(
+                room.scene,
+                *room.scene.camera,
+                *index,
+                settings,
+                SampleType::integer8,
+                [&](double done) {
+                    done_at_most = done;
+                    cancel.raise();
+                },
+                &cancel),
+            Cancelled);
+        EXPECT_LT(done_at_most, 0.01);
+    }
+}
+
+} // namespace
+} // namespace vera
