@@ -42,7 +42,11 @@ struct AxialRay {
 
     double height_at(double s) const { return height + s * rise; }
 
-    double radius_squared_at(double s) const { return (a * s + 2 * b) * s + c; }
+    /// As the square of a length: the polynomial would cancel where the ray passes the axis.
+    double radius_squared_at(double s) const {
+        const Vec3 at = from_axis + s * across;
+        return dot(at, at);
+    }
 };
 
 } // namespace vera

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "vera/scene/axial_ray.h"
-#include "vera/scene/hit.h"
+#include "vera/scene/certified_crossings.h"
 #include "vera/scene/primitives.h"
 
 #include <algorithm>
@@ -25,47 +25,92 @@ struct ContourLine {
 
     double radius_at(double h) const { return from.r + (h - from.h) * slope(); }
 
+    /// How far from the base it reaches, about.
+    double reach() const {
+        return std::max(std::max(from.r, to.r), std::max(std::abs(from.h), std::abs(to.h)));
+    }
+
     bool reaches_height(double h) const {
         return h >= std::min(from.h, to.h) && h <= std::max(from.h, to.h);
     }
 };
 
-inline double
-start_distance(const PreparedRay& prepared, const RotationalShape& shape, const ContourLine& line) {
-    const double reach = std::max(
-        std::max(line.from.r, line.to.r), std::max(std::abs(line.from.h), std::abs(line.to.h)));
-    // sqrt(3) times the error along each axis, which the axis' direction has too.
-    return 1.75 * prepared.start_distance(max_component(abs(shape.base)) + reach);
+/// Whether a closed formula told all crossings with a piece, or came too near to an end of the
+/// piece, or to a contact, for its rounding to be trusted.
+enum class Verdict { settled, uncertain };
+
+/// Far more than the rounding of the formulas, and yet seldom.
+constexpr double uncertain_part = 0x1p-34;
+
+inline bool
+starts_on_ring(const PreparedRay& prepared, const RotationalShape& shape, const ContourLine& line) {
+    const double height = dot(prepared.ray.origin - shape.base, shape.axis);
+    return prepared.starts_at_origin()
+        && std::abs(height - line.from.h) <= start_distance(prepared, shape, line.reach());
 }
 
 template <typename Sink>
-inline void for_each_ring_crossing(
+inline Verdict for_each_ring_crossing(
     const PreparedRay& prepared,
     const RotationalShape& shape,
     const AxialRay& axial,
     const ContourLine& line,
     const Sink& sink) {
     if (axial.rise == 0)
-        return;
+        return Verdict::settled;
+    // A ray almost in the ring's plane might be found to cross it and no other piece.
+    if (axial.rise * axial.rise <= uncertain_part * uncertain_part * axial.a)
+        return starts_on_ring(prepared, shape, line) ? Verdict::settled : Verdict::uncertain;
     const double s = (line.from.h - axial.height) / axial.rise;
     const double t = axial.t_reference + s;
     if (!prepared.covers(t))
-        return;
+        return Verdict::settled;
     const double radius_squared = axial.radius_squared_at(s);
     const double inner = std::min(line.from.r, line.to.r);
     const double outer = std::max(line.from.r, line.to.r);
-    if (!(radius_squared >= inner * inner && radius_squared <= outer * outer))
-        return;
-    if (prepared.starts_at_origin()) {
-        const double origin_height = dot(prepared.ray.origin - shape.base, shape.axis);
-        if (std::abs(origin_height - line.from.h) <= start_distance(prepared, shape, line))
-            return;
-    }
+    const double margin = uncertain_part * (outer * outer + axial.c);
+    if (radius_squared < inner * inner - margin || radius_squared > outer * outer + margin)
+        return Verdict::settled;
+    if (starts_on_ring(prepared, shape, line))
+        return Verdict::settled;
+    const bool near_inner = inner > 0 && radius_squared < inner * inner + margin;
+    if (near_inner || radius_squared > outer * outer - margin)
+        return Verdict::uncertain;
     sink(t);
+    return Verdict::settled;
+}
+
+/// The crossing of a ray that starts on a cone or cylinder with it, other than the start.
+template <typename Sink>
+inline void for_other_cone_crossing(
+    const PreparedRay& prepared,
+    const RotationalShape& shape,
+    const AxialRay& axial,
+    const ContourLine& line,
+    const Sink& sink) {
+    const Vec3 from_base = prepared.ray.origin - shape.base;
+    const double height = dot(from_base, shape.axis);
+    const Vec3 from_axis = from_base - height * shape.axis;
+    const double k = axial.rise * line.slope();
+    // One root of the quadratic equation is t = 0: what is left of it is linear.
+    const double t =
+        -2 * (dot(from_axis, axial.across) - line.radius_at(height) * k) / (axial.a - k * k);
+    if (t > 0 && prepared.covers(t) && line.reaches_height(height + t * axial.rise))
+        sink(t);
+}
+
+inline bool
+starts_on_cone(const PreparedRay& prepared, const RotationalShape& shape, const ContourLine& line) {
+    const Vec3 from_base = prepared.ray.origin - shape.base;
+    const double height = dot(from_base, shape.axis);
+    const double radius = length(from_base - height * shape.axis);
+    const double slope = line.slope();
+    return std::abs(radius - line.radius_at(height))
+        <= start_distance(prepared, shape, line.reach()) * std::sqrt(1 + slope * slope);
 }
 
 template <typename Sink>
-inline void for_each_cone_crossing(
+inline Verdict for_each_cone_crossing(
     const PreparedRay& prepared,
     const RotationalShape& shape,
     const AxialRay& axial,
@@ -74,45 +119,47 @@ inline void for_each_cone_crossing(
     const Sink& sink) {
     // Where the radius of the ray and that of the cone, p + k s, are equal:
     // (a - k^2) s^2 + 2 (b - p k) s + (c - p^2) = 0.
-    const double slope = line.slope();
-    const double k = axial.rise * slope;
+    const double k = axial.rise * line.slope();
     const double p = line.radius_at(axial.height);
-    const double leading = axial.a - k * k;
-
-    const Vec3 from_base = prepared.ray.origin - shape.base;
-    const double origin_height = dot(from_base, shape.axis);
-    const Vec3 from_axis = from_base - origin_height * shape.axis;
-    const double origin_radius = line.radius_at(origin_height);
-    if (!starts_here && prepared.starts_at_origin()) {
-        const double off = std::abs(length(from_axis) - origin_radius);
-        starts_here = off <= start_distance(prepared, shape, line) * std::sqrt(1 + slope * slope);
-    }
-    if (starts_here) {
-        // One root is t = 0: what is left of the equation is linear.
-        const double t = -2 * (dot(from_axis, axial.across) - origin_radius * k) / leading;
-        if (t > 0 && prepared.covers(t) && line.reaches_height(origin_height + t * axial.rise))
-            sink(t);
-        return;
-    }
-
     // The discriminant as a difference of squares of lengths, in which less cancels.
     const Vec3 sum = p * axial.across - k * axial.from_axis;
-    const double nearest = axial.flat
-        ? axial.a * axial.c
-        : dot(cross(axial.from_axis, axial.across), cross(axial.from_axis, axial.across));
-    const double discriminant = dot(sum, sum) - nearest;
-    if (!(discriminant >= 0))
-        return;
+    const Vec3 area = cross(axial.from_axis, axial.across);
+    const double discriminant = dot(sum, sum) - (axial.flat ? axial.a * axial.c : dot(area, area));
+    // Of a ray through the tip both lengths are 0.
+    const double margin_of_contact = uncertain_part * (p * p * axial.a + k * k * axial.c);
+    if (!(discriminant >= -margin_of_contact) && !starts_here)
+        return Verdict::settled;
+    if (starts_here || (prepared.starts_at_origin() && starts_on_cone(prepared, shape, line))) {
+        for_other_cone_crossing(prepared, shape, axial, line, sink);
+        return Verdict::settled;
+    }
+    if (discriminant < margin_of_contact)
+        return Verdict::uncertain;
+
     const double half = axial.b - p * k;
     const double root = std::sqrt(discriminant);
     const double larger = half > 0 ? -half - root : root - half;
     const double radius = std::sqrt(axial.c);
-    const double constant = (radius - p) * (radius + p);
-    const double first = larger / leading;
-    const double second = constant / larger;
-    for (const double s : {std::min(first, second), std::max(first, second)})
+    const std::array<double, 2> both = {
+        larger / (axial.a - k * k), (radius - p) * (radius + p) / larger};
+    const double margin = uncertain_part * (line.reach() + std::abs(axial.height));
+    for (const double s : both) {
+        const double h = axial.height_at(s);
+        if (std::abs(h - line.from.h) <= margin || std::abs(h - line.to.h) <= margin)
+            return Verdict::uncertain;
+    }
+    for (const double s : both)
         if (prepared.covers(axial.t_reference + s) && line.reaches_height(axial.height_at(s)))
             sink(axial.t_reference + s);
+    return Verdict::settled;
+}
+
+template <typename Sink>
+inline void
+sink_covered(const PreparedRay& prepared, const PieceCrossings& found, const Sink& sink) {
+    for (std::size_t i = 0; i < found.count; ++i)
+        if (prepared.covers(found.t[i]))
+            sink(found.t[i]);
 }
 
 } // namespace detail
@@ -129,14 +176,25 @@ inline void for_each_rotational_crossing(
     ContourPiece::Point from = shape.start;
     for (std::size_t i = 0; i < shape.contour.size(); ++i) {
         const auto piece = static_cast<std::uint32_t>(i);
-        const detail::ContourLine line{from, shape.contour[i].end};
+        const bool starts_here = piece == start_piece;
+        const ContourPiece& contour = shape.contour[i];
+        const detail::ContourLine line{from, contour.end};
         const auto sink_piece = [&](double t) { sink(t, piece); };
-        if (!line.is_ring())
-            detail::for_each_cone_crossing(
-                prepared, shape, axial, line, piece == start_piece, sink_piece);
-        else if (piece != start_piece)
-            detail::for_each_ring_crossing(prepared, shape, axial, line, sink_piece);
-        from = shape.contour[i].end;
+        if (contour.kind != ContourPiece::Kind::line) {
+            detail::sink_covered(
+                prepared,
+                crossings_beyond_start(prepared, axial, shape, i, starts_here),
+                sink_piece);
+        } else if (!(line.is_ring() && starts_here)) {
+            const detail::Verdict verdict = line.is_ring()
+                ? detail::for_each_ring_crossing(prepared, shape, axial, line, sink_piece)
+                : detail::for_each_cone_crossing(
+                    prepared, shape, axial, line, starts_here, sink_piece);
+            if (verdict == detail::Verdict::uncertain)
+                detail::sink_covered(
+                    prepared, certified_crossings(axial, contour, from), sink_piece);
+        }
+        from = contour.end;
     }
 }
 
