@@ -243,6 +243,7 @@ GridSettings settings_of_environment() {
     read("GRID_DENSITY", settings.density);
     read("GRID_CROWD", settings.crowd);
     read("GRID_CROWD_DENSITY", settings.crowd_density);
+    read("GRID_REFERENCES", settings.references);
     read("GRID_LEVELS", settings.levels);
     return settings;
 }

@@ -99,16 +99,15 @@ public:
         , settings_(settings)
         , cancel_(cancel) {}
 
-    std::unique_ptr<Draft> draft(
-        const std::vector<std::uint32_t>& elements,
-        const Box3& box,
-        double cells,
-        std::size_t level) const {
+    /// The grid over all elements, and those within it.
+    std::unique_ptr<Draft> draft(const std::vector<std::uint32_t>& elements) const {
+        const auto count = static_cast<double>(elements.size());
+        const double budget = settings_.references * count;
         auto result = std::make_unique<Draft>();
-        result->grid = grid_over(box, cells);
+        result->grid =
+            plan(elements, grids_.local_bounds, settings_.density * count, 0.5 * budget).grid;
         list_elements(elements, *result);
-        if (level < settings_.levels)
-            refine(*result, level);
+        refine(*result, 1, budget);
         return result;
     }
 
@@ -143,19 +142,6 @@ public:
     }
 
 private:
-    static Grid grid_over(const Box3& box, double cells) {
-        Grid grid;
-        grid.box = box;
-        grid.counts = cell_counts(extent(box), std::min(cells, 0x1p30));
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            // A flat box gets a cell that can be divided by.
-            const double size = std::max(extent(box)[axis] / grid.counts[axis], 0x1p-60);
-            grid.cell_size[axis] = size;
-            grid.cells_per_unit[axis] = 1 / size;
-        }
-        return grid;
-    }
-
     /// Calls sink(cell number) for every cell between first and last that the shape touches.
     template <typename Sink>
     static void for_each_touched_cell(
@@ -188,7 +174,19 @@ private:
     template <typename Sink>
     void for_each_cell_of(
         std::uint32_t element, const Grid& grid, CellShape& shape, const Sink& sink) const {
-        const Box3& box = boxes_[element];
+        for_each_cell_of(*grids_.geometry, element, boxes_[element], grid, shape, sink);
+    }
+
+public:
+    /// The same for an element whose bounds are given.
+    template <typename Sink>
+    static void for_each_cell_of(
+        const Geometry& geometry,
+        std::uint32_t element,
+        const Box3& box,
+        const Grid& grid,
+        CellShape& shape,
+        const Sink& sink) {
         Cell3 first;
         Cell3 last;
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -209,8 +207,8 @@ private:
             first[axis] = static_cast<std::int32_t>(std::clamp(from, 0.0, end - 1));
             last[axis] = static_cast<std::int32_t>(std::clamp(to, 0.0, end - 1));
         }
-        const Element place = element_at(*grids_.geometry, element);
-        const bool is_call = grids_.geometry->items[place.item].kind == ItemKind::subscene_call;
+        const Element place = element_at(geometry, element);
+        const bool is_call = geometry.items[place.item].kind == ItemKind::subscene_call;
         if (is_call || first == last) {
             for_each_touched_cell(grid, nullptr, first, last, sink);
             return;
@@ -219,6 +217,20 @@ private:
         for_each_touched_cell(grid, &shape, first, last, sink);
     }
 
+    static Grid grid_over(const Box3& box, double cells) {
+        Grid grid;
+        grid.box = box;
+        grid.counts = cell_counts(extent(box), std::min(cells, 0x1p30));
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            // A flat box gets a cell that can be divided by.
+            const double size = std::max(extent(box)[axis] / grid.counts[axis], 0x1p-60);
+            grid.cell_size[axis] = size;
+            grid.cells_per_unit[axis] = 1 / size;
+        }
+        return grid;
+    }
+
+private:
     /// Counts each cell's elements, makes room, and writes them down. Threads may meet in a cell,
     /// so that its list is sorted at the end.
     void list_elements(const std::vector<std::uint32_t>& elements, Draft& draft) const {
@@ -254,24 +266,72 @@ private:
         });
     }
 
-    /// Gives crowded cells grids of their own where that pays.
-    void refine(Draft& draft, std::size_t level) const {
+    struct Plan {
+        Grid grid;
+        double references = 0; ///< about so many
+    };
+
+    /// A grid of about so many cells, or of fewer where their lists would be longer than the
+    /// budget.
+    Plan
+    plan(const std::vector<std::uint32_t>& elements, const Box3& box, double cells, double budget)
+        const {
+        Plan result;
+        for (int turn = 0; turn < 5; ++turn) {
+            result.grid = grid_over(box, cells);
+            result.references = sampled_references(elements, result.grid);
+            if (result.references <= budget || cells <= 1)
+                break;
+            // Surfaces that are large compared with the cells pass through cells^(2/3) of them.
+            const double part = budget / result.references;
+            cells = std::max(1.0, 0.9 * cells * part * std::sqrt(part));
+        }
+        return result;
+    }
+
+    double sampled_references(const std::vector<std::uint32_t>& elements, const Grid& grid) const {
+        constexpr std::size_t sample_size = 128;
+        const std::size_t step = std::max<std::size_t>(elements.size() / sample_size, 1);
+        std::size_t sampled = 0;
+        std::size_t references = 0;
+        CellShape shape(*grids_.geometry, grids_.center, grids_.scale);
+        for (std::size_t i = step / 2; i < elements.size(); i += step, ++sampled)
+            for_each_cell_of(elements[i], grid, shape, [&](std::size_t) { ++references; });
+        return static_cast<double>(references)
+            / static_cast<double>(std::max<std::size_t>(sampled, 1))
+            * static_cast<double>(elements.size());
+    }
+
+    /// Gives crowded cells grids of their own where that pays. What is left of the budget of
+    /// references is shared out by the length of the lists.
+    void refine(Draft& draft, std::size_t level, double budget) const {
+        if (level >= settings_.levels)
+            return;
         std::vector<std::uint32_t> crowded;
-        for (std::size_t cell = 0; cell + 1 < draft.starts.size(); ++cell)
-            if (draft.starts[cell + 1] - draft.starts[cell] >= settings_.crowd)
-                crowded.push_back(static_cast<std::uint32_t>(cell));
+        std::uint64_t in_crowds = 0;
+        for (std::size_t cell = 0; cell + 1 < draft.starts.size(); ++cell) {
+            const std::uint64_t length = draft.starts[cell + 1] - draft.starts[cell];
+            if (length < settings_.crowd)
+                continue;
+            crowded.push_back(static_cast<std::uint32_t>(cell));
+            in_crowds += length;
+        }
+        const double left = budget - static_cast<double>(draft.references.size());
+        if (crowded.empty() || !(left > 0))
+            return;
+        const double each = 1 + left / static_cast<double>(in_crowds);
         std::vector<std::unique_ptr<Draft>> inner(crowded.size());
         parallel_ranges(crowded.size(), 1, [&](std::size_t first, std::size_t last) {
             for (std::size_t i = first; i < last; ++i)
-                inner[i] = refined_cell(draft, crowded[i], level);
+                inner[i] = refined_cell(draft, crowded[i], level + 1, each);
         });
         for (std::size_t i = 0; i < crowded.size(); ++i)
             if (inner[i] != nullptr)
                 draft.inner.emplace_back(crowded[i], std::move(inner[i]));
     }
 
-    std::unique_ptr<Draft>
-    refined_cell(const Draft& draft, std::uint32_t cell, std::size_t level) const {
+    std::unique_ptr<Draft> refined_cell(
+        const Draft& draft, std::uint32_t cell, std::size_t level, double references) const {
         const std::vector<std::uint32_t> elements(
             draft.references.begin() + static_cast<std::ptrdiff_t>(draft.starts[cell]),
             draft.references.begin() + static_cast<std::ptrdiff_t>(draft.starts[cell + 1]));
@@ -282,17 +342,15 @@ private:
         box = {max(box.lower, cell_box.lower), min(box.upper, cell_box.upper)};
         if (box.empty())
             return nullptr; // what touches the cell does so within rounding
-        const double count = static_cast<double>(elements.size());
-        // Cheap first: nothing is gained where most elements fill most of the box.
+        const auto count = static_cast<double>(elements.size());
+        const double budget = references * count;
+        const Plan planned = plan(elements, box, settings_.crowd_density * count, budget);
+        if (!pays(planned, cell_box, count))
+            return nullptr;
         auto result = std::make_unique<Draft>();
-        result->grid = grid_over(box, settings_.crowd_density * count);
-        if (cell_count(result->grid) < 2)
-            return nullptr;
+        result->grid = planned.grid;
         list_elements(elements, *result);
-        if (!pays(*result, cell_box, count))
-            return nullptr;
-        if (level + 1 < settings_.levels)
-            refine(*result, level + 1);
+        refine(*result, level, budget);
         return result;
     }
 
@@ -311,15 +369,14 @@ private:
     /// Whether a ray through the cell has less to do with the inner grid than with the list. A
     /// convex thing in another is met by a part of the lines through that one which is the ratio of
     /// their surfaces.
-    static bool pays(const Draft& inner, const Box3& cell_box, double count) {
+    static bool pays(const Plan& inner, const Box3& cell_box, double count) {
         constexpr double step_cost = 0.25; // of a slice of cells, in tests of an element
         constexpr double entry_cost = 2;
         const double outer_surface = surface(extent(cell_box));
         if (!(outer_surface > 0))
             return false;
         const Grid& grid = inner.grid;
-        const double inner_tests =
-            static_cast<double>(inner.references.size()) * surface(grid.cell_size) / outer_surface;
+        const double inner_tests = inner.references * surface(grid.cell_size) / outer_surface;
         const double entering = surface(extent(grid.box)) / outer_surface;
         const double steps =
             step_cost * entering * (grid.counts[0] + grid.counts[1] + grid.counts[2]) / 2;
@@ -348,7 +405,63 @@ void place_locally(GeometryGrids& grids) {
         grids.coordinate_size = std::max(grids.coordinate_size, max_component(abs(shape.base)));
 }
 
+/// Bounds of an element in local coordinates.
+Box3 local_box(
+    const GeometryGrids& grids, Element element, const std::vector<Box3>& subscene_bounds) {
+    const Geometry& geometry = *grids.geometry;
+    const Item& item = geometry.items[element.item];
+    Box3 box;
+    if (item.kind == ItemKind::subscene_call) {
+        const SubsceneCall& call = geometry.calls[item.index];
+        box = transformed_box(
+            call.to_parent, subscene_bounds[static_cast<std::size_t>(call.subscene)]);
+    } else {
+        box = bounds(geometry, element);
+    }
+    if (box.empty())
+        return {};
+    return {local_point(grids, box.lower), local_point(grids, box.upper)};
+}
+
 } // namespace
+
+std::size_t forecast_bytes(
+    const Geometry& geometry,
+    const std::vector<Box3>& subscene_bounds,
+    const GridSettings& settings) {
+    GeometryGrids grids;
+    grids.geometry = &geometry;
+    grids.bounds = bounds(geometry, subscene_bounds);
+    if (grids.bounds.empty())
+        return 0;
+    place_locally(grids);
+    const auto count = static_cast<double>(geometry.element_count);
+    const Grid grid = Builder::grid_over(grids.local_bounds, settings.density * count);
+    constexpr std::uint64_t sample_size = 256;
+    const std::uint64_t step = std::max<std::uint64_t>(geometry.element_count / sample_size, 1);
+    CellShape shape(geometry, grids.center, grids.scale);
+    double sampled = 0;
+    double touched = 0;
+    for (std::uint64_t i = step / 2; i < geometry.element_count; i += step, ++sampled) {
+        const Box3 box = local_box(grids, element_at(geometry, i), subscene_bounds);
+        if (!box.empty())
+            Builder::for_each_cell_of(
+                geometry, static_cast<std::uint32_t>(i), box, grid, shape, [&](std::size_t) {
+                    ++touched;
+                });
+    }
+    const double budget = settings.references * count;
+    const double outer = std::min(0.5 * budget, touched / std::max(sampled, 1.0) * count);
+    const double cells = static_cast<double>(cell_count(grid));
+    // What crowded cells will add is not known before: as much again as the outer grid is typical.
+    const double all_references = std::min(budget, 2.5 * outer);
+    const double all_cells = cells + settings.crowd_density * count;
+    const double lasting = count * sizeof(ElementRecord) + all_cells * sizeof(Cell)
+        + (all_cells + all_references) * sizeof(std::uint32_t);
+    const double passing = count * (sizeof(Box3) + sizeof(std::uint32_t))
+        + all_cells * 2 * sizeof(std::uint64_t) + all_references * sizeof(std::uint32_t);
+    return static_cast<std::size_t>(lasting + passing);
+}
 
 GeometryGrids build_geometry_grids(
     const Geometry& geometry,
@@ -368,19 +481,8 @@ GeometryGrids build_geometry_grids(
     parallel_ranges(count, 1024, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
             const Element element = element_at(geometry, i);
-            const Item& item = geometry.items[element.item];
-            Box3 box;
-            if (item.kind == ItemKind::subscene_call) {
-                const SubsceneCall& call = geometry.calls[item.index];
-                box = transformed_box(
-                    call.to_parent, subscene_bounds[static_cast<std::size_t>(call.subscene)]);
-            } else {
-                box = bounds(geometry, element);
-            }
-            if (!box.empty())
-                box = {local_point(grids, box.lower), local_point(grids, box.upper)};
-            boxes[i] = box;
-            grids.records[i] = element_record(grids, element, box);
+            boxes[i] = local_box(grids, element, subscene_bounds);
+            grids.records[i] = element_record(grids, element, boxes[i]);
         }
     });
 
@@ -389,8 +491,7 @@ GeometryGrids build_geometry_grids(
         if (!boxes[i].empty()) // calls of empty subscenes
             elements.push_back(static_cast<std::uint32_t>(i));
     const Builder builder(grids, boxes, settings, cancel);
-    const auto draft = builder.draft(
-        elements, grids.local_bounds, settings.density * static_cast<double>(elements.size()), 1);
+    const auto draft = builder.draft(elements);
     grids.lists.push_back(0); // place 0 means an empty cell
     builder.append(*draft, 1);
     return grids;

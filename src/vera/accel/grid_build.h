@@ -21,4 +21,10 @@ GeometryGrids build_geometry_grids(
     const GridSettings& settings,
     const CancelFlag* cancel);
 
+/// The bytes that building these grids takes at its peak, from a sample of the elements.
+std::size_t forecast_bytes(
+    const Geometry& geometry,
+    const std::vector<Box3>& subscene_bounds,
+    const GridSettings& settings);
+
 } // namespace vera::detail

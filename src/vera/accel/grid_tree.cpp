@@ -145,6 +145,17 @@ GridTreeStatistics TreeOfGrids::statistics() const {
     return result;
 }
 
+void refuse_if_too_large(const GridForecast& forecast) {
+    if (forecast.bytes <= forecast.available_bytes)
+        return;
+    const auto mebibytes = [](std::size_t bytes) { return std::to_string((bytes >> 20U) + 1); };
+    throw std::runtime_error(
+        "the tree of grids needs about " + mebibytes(forecast.bytes) + " MiB of memory, and "
+        + mebibytes(forecast.available_bytes)
+        + " MiB are available: call repeated parts of the scene as subscenes, or render it on a "
+          "larger machine");
+}
+
 } // namespace
 
 std::unique_ptr<GridTree> make_grid_tree(
@@ -153,6 +164,7 @@ std::unique_ptr<GridTree> make_grid_tree(
     const Progress& progress,
     const CancelFlag* cancel) {
     honour_simd_environment();
+    refuse_if_too_large(grid_forecast(scene, settings));
     const std::vector<Box3> boxes = subscene_bounds(scene);
     std::vector<GeometryGrids> geometries;
     geometries.reserve(scene.subscenes.size() + 1);

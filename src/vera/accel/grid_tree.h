@@ -15,8 +15,8 @@ struct GridSettings {
     double density = 2;       ///< cells for each element
     std::uint32_t crowd = 16; ///< so many elements in a cell may earn it a grid of its own
     double crowd_density = 2; ///< cells for each element of such a grid
-    std::uint32_t levels =
-        8; ///< of grids within grids of one scene or subscene, the first included
+    double references = 32;   ///< for each element, in all lists together; at most about so many
+    std::uint32_t levels = 8; ///< of grids in grids of one scene or subscene, the first included
 };
 
 /// What a tree of grids is made of. References are the entries of the cells' lists.
