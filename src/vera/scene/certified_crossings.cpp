@@ -96,7 +96,7 @@ private:
     Hodograph hodograph_;
     double size_ = 0;
     /// Ends the search where contour and ray run along one another for a while.
-    int steps_left_ = 20000;
+    int steps_left_ = 4000;
     PieceCrossings found_;
 };
 
