@@ -86,8 +86,8 @@ private:
     std::array<double, 4> derivatives(const Node& first, const Node& last) const;
     bool out_of_reach(
         const Node& first, const Node& last, const std::array<double, 4>& derivatives) const;
-    double root_between(Node low, Node high) const;
-    double parameter_at_radius(double radius, double first, double last) const;
+    double root_between(const Node& low, const Node& high) const;
+    double parameter_at_radius(double radius, const Node& first, const Node& last) const;
     void report(double v);
 
     Branch branch_;
@@ -199,47 +199,56 @@ void Search::search(const Node& first, const Node& last, int depth) {
     search(middle, last, depth + 1);
 }
 
-/// Of a distance that is monotone and changes its sign: by false position, where an end that stays
-/// counts half (Illinois), and every third step by halves, since the graph of a flat ray has a
-/// vertical tangent at its end.
-double Search::root_between(Node low, Node high) const {
-    double low_value = low.distance;
-    double high_value = high.distance;
-    double v = low.v;
+/// A zero of a function that changes its sign between low and high: by false position, where an
+/// end that stays counts half (Illinois), and by halves where that is slow, as beside the vertical
+/// tangent at the end of a flat ray's graph.
+template <typename Function>
+double bracketed_zero(
+    double low, double low_value, double high, double high_value, const Function& value_at) {
+    double width = high - low;
+    double last = low;
     for (int step = 1; step < 200; ++step) {
-        const double by_chord = low.v - low_value * ((high.v - low.v) / (high_value - low_value));
-        const bool usable = step % 3 != 0 && by_chord > low.v && by_chord < high.v;
-        v = usable ? by_chord : 0.5 * (low.v + high.v);
-        if (!(v > low.v && v < high.v))
-            break;
-        const Node node = node_at(v);
-        if (node.distance == 0)
-            break;
-        if (is_beyond(node) == is_beyond(low)) {
-            low = node;
-            low_value = node.distance;
+        double v = low - low_value * ((high - low) / (high_value - low_value));
+        const bool slow = step % 4 == 0 && high - low > 0.25 * width;
+        if (step % 4 == 0)
+            width = high - low;
+        if (slow || !(v > low && v < high))
+            v = 0.5 * (low + high);
+        if (!(v > low && v < high) || std::abs(v - last) <= 0x1p-52 * v)
+            return v;
+        last = v;
+        const double value = value_at(v);
+        if (value == 0)
+            return v;
+        if ((value > 0) == (low_value > 0)) {
+            low = v;
+            low_value = value;
             high_value *= 0.5;
         } else {
-            high = node;
-            high_value = node.distance;
+            high = v;
+            high_value = value;
             low_value *= 0.5;
         }
-        if (high.v - low.v <= 0x1p-53 * high.v)
-            break;
     }
-    return v;
+    return last;
 }
 
-double Search::parameter_at_radius(double radius, double first, double last) const {
-    const bool grows =
-        vera::point_at(piece_, start_, last).r > vera::point_at(piece_, start_, first).r;
-    while (true) {
-        const double middle = 0.5 * (first + last);
-        if (!(middle > first && middle < last))
-            return middle;
-        const bool beyond = vera::point_at(piece_, start_, middle).r > radius;
-        (beyond == grows ? last : first) = middle;
-    }
+double Search::root_between(const Node& low, const Node& high) const {
+    // A node on the branch counts as before it, and is the zero.
+    if (low.distance == 0 || high.distance == 0)
+        return low.distance == 0 ? low.v : high.v;
+    return bracketed_zero(low.v, low.distance, high.v, high.distance, [&](double v) {
+        const Point point = vera::point_at(piece_, start_, v);
+        return distance_from(branch_, point, graph_at(branch_.axial, point));
+    });
+}
+
+double Search::parameter_at_radius(double radius, const Node& first, const Node& last) const {
+    return bracketed_zero(
+        first.v, first.point.r - radius, last.v, last.point.r - radius, [&](double v) {
+            const double beyond = vera::point_at(piece_, start_, v).r - radius;
+            return std::abs(beyond) <= 0x1p-51 * radius ? 0 : beyond;
+        });
 }
 
 void Search::report(double v) {
@@ -275,7 +284,7 @@ void Search::search_arc(double first, double last) {
     const bool starts_within = from.point.r < nearest;
     const bool ends_within = to.point.r < nearest;
     if (starts_within || ends_within) {
-        Node at_nearest = node_at(parameter_at_radius(nearest, first, last));
+        Node at_nearest = node_at(parameter_at_radius(nearest, from, to));
         // Both halves of the ray meet there, and must find the same distance.
         at_nearest.graph = 0;
         at_nearest.distance = distance_from(branch_, at_nearest.point, 0);
