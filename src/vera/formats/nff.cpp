@@ -30,6 +30,7 @@ public:
     }
 
     SceneFile read() {
+        reserve();
         for (cursor_.skip_blanks(); !cursor_.at_end() && !report_.full(); cursor_.skip_blanks()) {
             start_ = cursor_.offset();
             if (!read_statement())
@@ -51,6 +52,34 @@ public:
     }
 
 private:
+    /// Counts beforehand, by the lines' first letters, so that little has to be copied while the
+    /// scene grows.
+    void reserve() {
+        std::size_t spheres = 0;
+        std::size_t cones = 0;
+        std::size_t polygons = 0;
+        std::size_t triangles = 0;
+        std::size_t patches = 0;
+        for (TextCursor counter = cursor_; !counter.at_end(); counter.skip_line()) {
+            const std::string_view word = counter.word();
+            spheres += word == "s" ? 1 : 0;
+            cones += word == "c" ? 1 : 0;
+            if (word != "p" && word != "pp")
+                continue;
+            counter.pass(word);
+            counter.skip_blanks_of_line();
+            const bool three = counter.word() == "3";
+            ++(word == "pp" ? patches : three ? triangles : polygons);
+        }
+        Geometry& geometry = scene_.geometry;
+        geometry.spheres.reserve(spheres);
+        geometry.rotational_shapes.reserve(cones);
+        geometry.polygons.reserve(polygons);
+        geometry.triangles.reserve(triangles);
+        geometry.patches.reserve(patches);
+        geometry.items.reserve(spheres + cones + polygons + triangles + patches);
+    }
+
     /// Whether the statement could be read to its end.
     bool read_statement() {
         const std::string_view keyword = cursor_.word();

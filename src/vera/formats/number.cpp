@@ -77,6 +77,35 @@ Decimal scan_decimal(const char* begin, const char* end) {
     return decimal;
 }
 
+// Digits below 2^53 and powers of ten up to 10^22 are exact doubles, so that one multiplication or
+// division rounds correctly (Clinger 1990). Almost every number ends in one of the two uses.
+constexpr std::uint64_t largest_exact = std::uint64_t{1} << 53U;
+
+/// Few digits, with or without a fraction, and no exponent: almost every number. Whether it is one;
+/// what it is not, is left as it is.
+bool scan_short_decimal(const char*& at, const char* end, double& value) {
+    const char* p = at;
+    std::uint64_t digits = 0;
+    for (; p != end && is_digit(*p); ++p)
+        digits = 10 * digits + static_cast<std::uint64_t>(*p - '0');
+    auto count = static_cast<std::size_t>(p - at);
+    std::size_t fraction = 0;
+    if (p != end && *p == '.') {
+        const char* const first = ++p;
+        for (; p != end && is_digit(*p); ++p)
+            digits = 10 * digits + static_cast<std::uint64_t>(*p - '0');
+        fraction = static_cast<std::size_t>(p - first);
+        count += fraction;
+    }
+    // Of more than 19 digits, the sum may have wrapped.
+    if (count == 0 || count > 19 || digits > largest_exact
+        || (p != end && (*p == 'e' || *p == 'E')))
+        return false;
+    value = static_cast<double>(digits) / powers_of_ten[fraction];
+    at = p;
+    return true;
+}
+
 } // namespace
 
 ScannedNumber scan_number(const char* begin, const char* end) {
@@ -84,13 +113,14 @@ ScannedNumber scan_number(const char* begin, const char* end) {
     const bool negative = p != end && *p == '-';
     if (p != end && (*p == '-' || *p == '+'))
         ++p;
+    double short_value = 0;
+    if (scan_short_decimal(p, end, short_value))
+        return {negative ? -short_value : short_value, p, ScannedNumber::Outcome::good};
+
     const Decimal decimal = scan_decimal(p, end);
     if (decimal.end == p)
         return {0, begin, ScannedNumber::Outcome::not_a_number};
 
-    // Digits below 2^53 and powers of ten up to 10^22 are exact doubles, so that one multiplication
-    // or division rounds correctly (Clinger 1990). Almost every number ends here.
-    constexpr std::uint64_t largest_exact = std::uint64_t{1} << 53U;
     double value = 0;
     if (decimal.digit_count <= 19 && decimal.digits <= largest_exact && decimal.exponent >= -22
         && decimal.exponent <= 22) {
