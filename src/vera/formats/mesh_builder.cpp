@@ -66,10 +66,10 @@ bool MeshBuilder::add_face(std::span<const MeshCorner> corners, std::size_t offs
             "split the mesh into several files");
         return false;
     }
-    if (corners.size() == 3)
-        add_triangle(corners[0], corners[1], corners[2], offset);
-    else
+    if (corners.size() > 3)
         add_polygon(corners, offset);
+    else if (!add_triangle(corners[0], corners[1], corners[2]))
+        without_area_.add(offset);
     return true;
 }
 
@@ -78,25 +78,23 @@ void MeshBuilder::add_polygon(std::span<const MeshCorner> corners, std::size_t o
     for (const MeshCorner& corner : corners)
         outline_.push_back(mesh_.positions[corner.position]);
     const OutlineKind outline = split_polygon(outline_, triangles_);
-    if (outline == OutlineKind::tangled)
-        tangled_.add(offset);
-    if (triangles_.empty())
-        without_area_.add(offset);
+    const std::size_t before = mesh_.triangle_count();
     for (const auto& [a, b, c] : triangles_)
-        add_triangle(corners[a], corners[b], corners[c], offset);
+        add_triangle(corners[a], corners[b], corners[c]);
+    if (mesh_.triangle_count() == before)
+        without_area_.add(offset);
+    else if (outline == OutlineKind::tangled)
+        tangled_.add(offset);
 }
 
-void MeshBuilder::add_triangle(MeshCorner a, MeshCorner b, MeshCorner c, std::size_t offset) {
+bool MeshBuilder::add_triangle(MeshCorner a, MeshCorner b, MeshCorner c) {
     if (is_without_area(
-            mesh_.positions[a.position],
-            mesh_.positions[b.position],
-            mesh_.positions[c.position])) {
-        without_area_.add(offset);
-        return;
-    }
+            mesh_.positions[a.position], mesh_.positions[b.position], mesh_.positions[c.position]))
+        return false;
     mesh_.position_indices.insert(
         mesh_.position_indices.end(), {a.position, b.position, c.position});
     add_normals(a, b, c);
+    return true;
 }
 
 /// Keeps normal_indices empty as long as they equal position_indices, or as there is no normal.

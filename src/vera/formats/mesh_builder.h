@@ -49,7 +49,8 @@ public:
     Mesh finish(std::vector<Diagnostic>& warnings);
 
 private:
-    void add_triangle(MeshCorner a, MeshCorner b, MeshCorner c, std::size_t offset);
+    /// Whether it has an area.
+    bool add_triangle(MeshCorner a, MeshCorner b, MeshCorner c);
     void add_polygon(std::span<const MeshCorner> corners, std::size_t offset);
     void add_normals(MeshCorner a, MeshCorner b, MeshCorner c);
     void complete_normals();

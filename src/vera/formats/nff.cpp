@@ -111,19 +111,22 @@ private:
         return true;
     }
 
-    /// After a mistake: to the next line that does not begin with a number.
+    /// After a mistake: to the next line that does not go on with numbers or with the view.
     void skip_to_statement() {
-        do {
+        constexpr std::string_view parts[] = {
+            "from", "at", "up", "angle", "hither", "yon", "resolution"};
+        bool goes_on = true;
+        while (goes_on) {
             cursor_.skip_line();
             cursor_.skip_blanks();
-        } while (!cursor_.at_end()
-                 && std::string_view("+-.0123456789").find(cursor_.peek())
-                     != std::string_view::npos);
+            const std::string_view word = cursor_.word();
+            goes_on = !word.empty()
+                && (std::string_view("+-.0123456789").find(word.front()) != std::string_view::npos
+                    || std::find(std::begin(parts), std::end(parts), word) != std::end(parts));
+        }
     }
 
     bool read_view() {
-        if (scene_.camera)
-            return complain("the view is given twice", "delete one of the statements v");
         NffView view;
         bool has_from = false;
         bool has_at = false;
@@ -155,19 +158,27 @@ private:
         }
         for (const auto& [has, name] :
              {std::pair(has_from, "from"), {has_at, "at"}, {has_up, "up"}, {has_angle, "angle"}})
-            if (!has)
-                return complain(
+            if (!has) {
+                complain(
                     fmt::format("the view lacks '{}'", name),
                     "a view says: v from x y z at x y z up x y z angle a hither h resolution w h");
+                return true;
+            }
+        use(view);
+        return true;
+    }
+
+    void use(const NffView& view) {
+        if (scene_.camera)
+            complain("the view is given twice", "delete one of the statements v");
         scene_.camera = camera_of(view);
         scene_.defaults.width = view.width;
         scene_.defaults.height = view.height;
         if (!scene_.camera)
-            return complain(
+            complain(
                 "the view is degenerate",
                 "'from' and 'at' must differ, 'up' must not be parallel to the way from one to the "
                 "other, and the angle lie between 0 and 180 degrees");
-        return true;
     }
 
     bool take_resolution(std::uint32_t& pixels, std::string_view what) {
@@ -195,11 +206,11 @@ private:
     }
 
     bool read_background() {
-        if (scene_.defaults.firmament)
-            return complain("the background is given twice", "delete one of the statements b");
         Color color;
         if (!take_color(color, "the background"))
             return false;
+        if (scene_.defaults.firmament)
+            complain("the background is given twice", "delete one of the statements b");
         scene_.defaults.firmament = Firmament{.sky = color, .horizon = color, .earth = color};
         return true;
     }
@@ -328,21 +339,19 @@ private:
         triangles_.assign({{0, 1, 2}});
         if (count > 3)
             kind = split_polygon(corners_, triangles_);
-        if (kind == OutlineKind::tangled)
-            tangled_.add(start_);
         if (count > 3 && kind != OutlineKind::tangled && is_plane()) {
             add_polygon(kind);
             return true;
         }
-        if (count > 3 && kind != OutlineKind::tangled)
+        if (kind == OutlineKind::tangled)
+            tangled_.add(start_);
+        else if (count > 3)
             bent_.add(start_);
-        for (const auto& [a, b, c] : triangles_)
-            if (is_without_area(corners_[a], corners_[b], corners_[c]))
-                without_area_.add(start_);
-            else
-                add(scene_.geometry.triangles,
-                    Triangle{{corners_[a], corners_[b], corners_[c]}},
-                    ItemKind::triangle);
+        add_triangles([&](const CornerTriple& t) {
+            add(scene_.geometry.triangles,
+                Triangle{{corners_[t[0]], corners_[t[1]], corners_[t[2]]}},
+                ItemKind::triangle);
+        });
         return true;
     }
 
@@ -387,18 +396,27 @@ private:
             triangles_.push_back({0, 1, 2});
         else if (count > 3 && split_polygon(corners_, triangles_) == OutlineKind::tangled)
             tangled_.add(start_);
-        if (triangles_.empty())
-            without_area_.add(start_);
-        for (const auto& [a, b, c] : triangles_)
-            if (is_without_area(corners_[a], corners_[b], corners_[c]))
-                without_area_.add(start_);
-            else
-                add(scene_.geometry.patches,
-                    Patch{
-                        {corners_[a], corners_[b], corners_[c]},
-                        {normals_[a], normals_[b], normals_[c]}},
-                    ItemKind::patch);
+        add_triangles([&](const CornerTriple& t) {
+            add(scene_.geometry.patches,
+                Patch{
+                    {corners_[t[0]], corners_[t[1]], corners_[t[2]]},
+                    {normals_[t[0]], normals_[t[1]], normals_[t[2]]}},
+                ItemKind::patch);
+        });
         return true;
+    }
+
+    /// Those of the polygon's triangles that have an area.
+    template <typename Add>
+    void add_triangles(const Add& add_one) {
+        bool any = false;
+        for (const CornerTriple& t : triangles_)
+            if (!is_without_area(corners_[t[0]], corners_[t[1]], corners_[t[2]])) {
+                add_one(t);
+                any = true;
+            }
+        if (!any)
+            without_area_.add(start_);
     }
 
     template <typename Primitive>
@@ -426,13 +444,9 @@ private:
         primitives.push_back(std::move(primitive));
     }
 
-    bool complain(std::string problem, const char* remedy) {
-        report_.error(
-            start_,
-            cursor_.offset() > start_ ? 1 : cursor_.word().size(),
-            std::move(problem),
-            remedy);
-        return false;
+    /// Of the statement as a whole.
+    void complain(std::string problem, const char* remedy) {
+        report_.error(start_, 1, std::move(problem), remedy);
     }
 
     void warn() {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace vera {
 
@@ -110,14 +111,16 @@ public:
         previous_.resize(n);
         next_.resize(n);
         state_.assign(n, State::reflex);
-        by_x_.resize(n);
         for (std::uint32_t i = 0; i < n; ++i) {
             previous_[i] = i == 0 ? n - 1 : i - 1;
             next_[i] = i + 1 == n ? 0 : i + 1;
-            by_x_[i] = i;
         }
-        for (std::uint32_t i = 0; i < n; ++i)
+        for (std::uint32_t i = 0; i < n; ++i) {
             update(i);
+            if (state_[i] == State::reflex)
+                by_x_.push_back(i);
+        }
+        reflex_count_ = by_x_.size();
         std::sort(by_x_.begin(), by_x_.end(), [&](std::uint32_t a, std::uint32_t b) {
             return points_[a].x != points_[b].x ? points_[a].x < points_[b].x : a < b;
         });
@@ -125,24 +128,20 @@ public:
 
     /// Whether all of the polygon could be cut off in ears.
     bool clip() {
+        // First come, first served: always going on where an ear was cut makes long thin triangles.
         std::vector<std::uint32_t> waiting(points_.size());
-        for (std::uint32_t i = 0; i < waiting.size(); ++i)
-            waiting[i] = static_cast<std::uint32_t>(waiting.size()) - 1 - i;
+        std::iota(waiting.begin(), waiting.end(), 0U);
         std::uint32_t any = 0;
-        while (left_ > 3) {
-            if (waiting.empty()) {
-                if (!drop_straight_corners(any, waiting))
-                    break;
-                continue;
-            }
-            const std::uint32_t i = waiting.back();
-            waiting.pop_back();
+        for (std::size_t first = 0; left_ > 3; ++first) {
+            if (first == waiting.size() && !drop_straight_corners(any, waiting))
+                break;
+            const std::uint32_t i = waiting[first];
             if (state_[i] != State::convex || !is_ear(i))
                 continue;
             add(previous_[i], i, next_[i]);
             any = cut(i);
-            waiting.push_back(next_[any]);
             waiting.push_back(any);
+            waiting.push_back(next_[any]);
         }
         const bool clean = left_ == 3 && steps_left_ > 0
             && turn(points_[previous_[any]], points_[any], points_[next_[any]]) >= 0;
@@ -152,13 +151,19 @@ public:
     }
 
 private:
-    static constexpr std::size_t steps_per_corner = 1024;
+    static constexpr std::size_t steps_per_corner = 4096;
 
-    enum class State : std::uint8_t { convex, reflex, gone };
+    enum class State : std::uint8_t {
+        convex,
+        reflex, ///< or straight
+        lost, ///< was convex and is no longer: never, where no sides cross and nothing is straight
+        gone
+    };
 
     void update(std::uint32_t i) {
         const bool convex = turn(points_[previous_[i]], points_[i], points_[next_[i]]) > 0;
-        state_[i] = convex ? State::convex : State::reflex;
+        reflex_count_ -= convex && state_[i] == State::reflex ? 1 : 0;
+        state_[i] = convex ? State::convex : state_[i] == State::convex ? State::lost : state_[i];
     }
 
     /// Takes the corner out of the ring, and returns the one before it.
@@ -167,10 +172,19 @@ private:
         const std::uint32_t after = next_[i];
         next_[before] = after;
         previous_[after] = before;
+        reflex_count_ -= state_[i] == State::reflex ? 1 : 0;
         state_[i] = State::gone;
         --left_;
         update(before);
         update(after);
+        // No corner becomes reflex; those that no longer are, are not to be looked at again.
+        if (2 * reflex_count_ < by_x_.size())
+            by_x_.erase(
+                std::remove_if(
+                    by_x_.begin(),
+                    by_x_.end(),
+                    [&](std::uint32_t j) { return state_[j] != State::reflex; }),
+                by_x_.end());
         return before;
     }
 
@@ -228,7 +242,8 @@ private:
     std::vector<CornerTriple>& triangles_;
     std::vector<std::uint32_t> previous_;
     std::vector<std::uint32_t> next_;
-    std::vector<std::uint32_t> by_x_;
+    std::vector<std::uint32_t> by_x_; ///< the reflex corners, and some that were
+    std::size_t reflex_count_ = 0;
     std::vector<State> state_;
     std::size_t left_;
     std::size_t steps_left_;
