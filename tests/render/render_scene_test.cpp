@@ -9,8 +9,10 @@
 #include <cstdlib>
 #include <vector>
 
+#include "reference/reference_renderer.h"
 #include "test_scenes.h"
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 namespace vera {
 namespace {
@@ -73,6 +75,13 @@ std::vector<std::uint8_t> bytes(const RenderResult& result) {
     return std::get<std::vector<std::uint8_t>>(result.image.samples);
 }
 
+/// The most memory that the process has had in use, in bytes.
+std::size_t peak_memory() {
+    rusage usage = {};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
+}
+
 std::vector<PictureSettings> settings_with_and_without_antialiasing() {
     PictureSettings with = Room::settings();
     with.antialiasing.samples = 4;
@@ -125,6 +134,39 @@ TEST(RenderScene, GivesNearlyTheSameBytesInUnitsOfAPowerOfTen) {
         for (std::size_t i = 0; i < expected.size(); ++i)
             different += std::abs(expected[i] - actual[i]) > 1;
         EXPECT_LE(different, expected.size() / 1000) << "scale " << scale;
+    }
+}
+
+TEST(RenderScene, AgreesWithTheReferenceRenderer) {
+    const Room room;
+    PictureSettings settings = Room::settings();
+    settings.antialiasing.on = false;
+    for (const bool shadows : {true, false}) {
+        settings.shadows = shadows;
+        const auto expected = reference::reference_picture(room.scene, settings).bytes;
+        const auto actual = bytes(room.rendered(settings));
+        ASSERT_EQ(actual.size(), expected.size());
+        std::size_t different = 0;
+        for (std::size_t i = 0; i < expected.size(); ++i)
+            different += std::abs(expected[i] - actual[i]) > 1;
+        EXPECT_LE(different, expected.size() / 1000);
+    }
+}
+
+TEST(RenderScene, NeedsLittleMemoryBesideThePicture) {
+    SceneMaker maker;
+    maker.material(luminous({1, 1, 1}));
+    maker.sphere({0, 0, -2}, 0.5);
+    maker.look_down_in_parallel(1);
+    const auto index = make_brute_force(maker.finish());
+    PictureSettings settings = plain_settings(1024, 1024);
+    for (const bool antialiasing : {false, true}) {
+        settings.antialiasing.on = antialiasing;
+        const std::size_t before = peak_memory();
+        render_scene(maker.scene, *maker.scene.camera, *index, settings, SampleType::integer8);
+        // What is kept of each pixel would show: there are a million.
+        const std::size_t picture = std::size_t{4} << 20;
+        EXPECT_LT(peak_memory() - before, picture + (std::size_t{40} << 20));
     }
 }
 

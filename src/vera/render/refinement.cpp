@@ -116,11 +116,11 @@ void TileRefiner::see_all_centers() {
     const std::size_t stride = tile_.width + 2 * frame;
     rays_.clear();
     targets_.clear();
-    for (std::size_t y = frame - 1; y < tile_.height + frame + 1; ++y)
-        for (std::size_t x = frame - 1; x < tile_.width + frame + 1; ++x) {
-            targets_.push_back(y * stride + x);
-            rays_.push_back(center_ray(targets_.back()));
-        }
+    const Tile compared = {frame - 1, frame - 1, tile_.width + 2, tile_.height + 2};
+    for_each_pixel(compared, [&](std::size_t x, std::size_t y) {
+        targets_.push_back(y * stride + x);
+        rays_.push_back(center_ray(targets_.back()));
+    });
     trace_samples();
     tracer_.statistics.extra_view_rays += rays_.size() - pixels_.size();
     for (std::size_t i = 0; i < targets_.size(); ++i) {
@@ -197,15 +197,14 @@ bool TileRefiner::differs(const Window& window) const {
 void TileRefiner::send_probes() {
     rays_.clear();
     targets_.clear();
-    for (std::size_t pixel = 0; pixel < pixels_.size(); ++pixel) {
+    for_each_pixel(tile_, [&](std::size_t x, std::size_t y) {
+        const std::size_t pixel = (y - tile_.y) * tile_.width + x - tile_.x;
         if (pixels_[pixel].wanted != Refinement::center)
-            continue;
-        const std::size_t x = tile_.x + pixel % tile_.width;
-        const std::size_t y = tile_.y + pixel / tile_.width;
+            return;
         rays_.push_back(picture_.raster.ray(
             static_cast<double>(x), static_cast<double>(y), probe_position(x, y)));
         targets_.push_back(pixel);
-    }
+    });
     probe();
     for (std::size_t i = 0; i < rays_.size(); ++i) {
         const Window around = window(targets_[i]);

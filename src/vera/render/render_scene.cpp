@@ -24,16 +24,26 @@ struct TileWork {
     GenerationTracer tracer;
     std::vector<QueryRay> rays;
     std::vector<Color> colors;
+    std::vector<Color> rows; ///< the same, row by row
 };
 
 void render_tile(const Raster& raster, const Tile& tile, TileWork& work, Image& image) {
-    view_rays(raster, tile, work.rays);
+    work.rays.clear();
+    for_each_pixel(tile, [&](std::size_t x, std::size_t y) {
+        work.rays.push_back(raster.ray(static_cast<double>(x), static_cast<double>(y)));
+    });
     work.colors.resize(work.rays.size());
     work.tracer.trace(work.rays, work.colors);
     work.tracer.statistics.view_rays += work.rays.size();
+
+    work.rows.resize(work.colors.size());
+    const Color* color = work.colors.data();
+    for_each_pixel(tile, [&](std::size_t x, std::size_t y) {
+        work.rows[(y - tile.y) * tile.width + x - tile.x] = *color++;
+    });
     for (std::size_t row = 0; row < tile.height; ++row)
         develop(
-            std::span<const Color>(work.colors).subspan(row * tile.width, tile.width),
+            std::span<const Color>(work.rows).subspan(row * tile.width, tile.width),
             image,
             tile.x,
             tile.y + row);
@@ -44,7 +54,7 @@ RenderStatistics
 render_centers(const TracedScene& traced, const Raster& raster, Image& image, ProgressMeter& done) {
     const Tiling tiling = {raster.width, raster.height, tile_side};
     Workspaces<TileWork> workspaces([&] {
-        return std::unique_ptr<TileWork>(new TileWork{GenerationTracer(traced), {}, {}});
+        return std::unique_ptr<TileWork>(new TileWork{GenerationTracer(traced), {}, {}, {}});
     });
     parallel_ranges(tiling.count(), 1, [&](std::size_t first, std::size_t last) {
         workspaces.lend([&](TileWork& work) {
