@@ -8,8 +8,8 @@
 // times are processor time, medians of five. Memory is what the peak of a process that does nothing
 // but read grows by, the mapped file included, by the size of the file.
 
-#include "vera/formats/mesh_file.h"
-#include "vera/formats/nff.h"
+#include "vera/formats/read_scene.h"
+#include "vera/formats/source_text.h"
 
 #include <algorithm>
 #include <charconv>
@@ -59,13 +59,7 @@ double bare_loop(std::string_view text) {
 }
 
 void read_file(const std::filesystem::path& path) {
-    if (path.extension() == ".nff") {
-        if (read_nff(SourceText(path)).scene.geometry.items.empty())
-            std::abort();
-        return;
-    }
-    std::vector<Diagnostic> warnings;
-    if (read_mesh(path, warnings).triangle_count() == 0)
+    if (read_scene(path).scene.geometry.items.empty())
         std::abort();
 }
 
@@ -281,6 +275,42 @@ std::string nff_spheres(std::size_t side) {
     return text;
 }
 
+/// Triangles, or patches whose normals are the corners.
+std::string scene_triangles(std::size_t side, int digits, const char* keyword) {
+    const std::vector<Vec3> points = corners(side);
+    std::string text = "CM m MA m\n";
+    auto out = std::back_inserter(text);
+    const int rounds = std::string_view(keyword) == "PA" ? 2 : 1;
+    for_each_triangle(side, [&](std::size_t a, std::size_t b, std::size_t c) {
+        text += keyword;
+        for (int round = 0; round < rounds; ++round)
+            for (const std::size_t i : {a, b, c})
+                for (const double value : {points[i].x, points[i].y, points[i].z})
+                    fmt::format_to(out, " {:.{}g}", value, digits);
+        text += '\n';
+    });
+    return text;
+}
+
+std::string scene_quadrangles(std::size_t side) {
+    std::string text = "CM m MA m\n";
+    auto out = std::back_inserter(text);
+    for (std::size_t i = 0; i < side; ++i)
+        for (std::size_t j = 0; j < side; ++j)
+            fmt::format_to(
+                out, "P4 {0} {1} -15  {2} {1} -15  {2} {3} -15  {0} {3} -15\n", i, j, i + 1, j + 1);
+    return text;
+}
+
+std::string scene_spheres(std::size_t side) {
+    std::string text = "CM m MA m\n";
+    auto out = std::back_inserter(text);
+    for_each_corner(side, [&](double x, double y, double z) {
+        fmt::format_to(out, "SP {:.6g} {:.6g} {:.6g} 0.01\n", x, y, z);
+    });
+    return text;
+}
+
 void measure_generated(double megabytes) {
     struct Input {
         const char* name;
@@ -290,6 +320,14 @@ void measure_generated(double megabytes) {
     };
 
     const Input inputs[] = {
+        {"P3, 6 digits", "j.vera", [](std::size_t n) { return scene_triangles(n, 6, "P3"); }, 160},
+        {"P3, 17 digits",
+         "k.vera",
+         [](std::size_t n) { return scene_triangles(n, 17, "P3"); },
+         360},
+        {"PA, 6 digits", "l.vera", [](std::size_t n) { return scene_triangles(n, 6, "PA"); }, 310},
+        {"P4, small integers", "m.vera", scene_quadrangles, 48},
+        {"SP, 6 digits", "n.vera", scene_spheres, 34},
         {"OBJ, 6 digits", "a.obj", [](std::size_t n) { return obj_text(n, 6, false); }, 72},
         {"OBJ, 17 digits", "b.obj", [](std::size_t n) { return obj_text(n, 17, false); }, 105},
         {"OBJ, vt and vn", "c.obj", [](std::size_t n) { return obj_text(n, 6, true); }, 210},

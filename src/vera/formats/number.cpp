@@ -2,7 +2,10 @@
 #include "vera/formats/number.h"
 
 #include <array>
+#include <bit>
 #include <charconv>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 
@@ -13,6 +16,13 @@ namespace {
 constexpr std::array<double, 23> powers_of_ten = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                                   1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
                                                   1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+
+constexpr std::array<std::uint64_t, 20> whole_powers_of_ten = [] {
+    std::array<std::uint64_t, 20> powers = {1};
+    for (std::size_t i = 1; i < powers.size(); ++i)
+        powers[i] = 10 * powers[i - 1];
+    return powers;
+}();
 
 bool is_digit(char letter) {
     return letter >= '0' && letter <= '9';
@@ -77,50 +87,36 @@ Decimal scan_decimal(const char* begin, const char* end) {
     return decimal;
 }
 
-// Digits below 2^53 and powers of ten up to 10^22 are exact doubles, so that one multiplication or
-// division rounds correctly (Clinger 1990). Almost every number ends in one of the two uses.
-constexpr std::uint64_t largest_exact = std::uint64_t{1} << 53U;
-
-/// Few digits, with or without a fraction, and no exponent: almost every number. Whether it is one;
-/// what it is not, is left as it is.
-bool scan_short_decimal(const char*& at, const char* end, double& value) {
-    const char* p = at;
-    std::uint64_t digits = 0;
-    for (; p != end && is_digit(*p); ++p)
-        digits = 10 * digits + static_cast<std::uint64_t>(*p - '0');
-    auto count = static_cast<std::size_t>(p - at);
-    std::size_t fraction = 0;
-    if (p != end && *p == '.') {
-        const char* const first = ++p;
-        for (; p != end && is_digit(*p); ++p)
-            digits = 10 * digits + static_cast<std::uint64_t>(*p - '0');
-        fraction = static_cast<std::size_t>(p - first);
-        count += fraction;
-    }
-    // Of more than 19 digits, the sum may have wrapped.
-    if (count == 0 || count > 19 || digits > largest_exact
-        || (p != end && (*p == 'e' || *p == 'E')))
-        return false;
-    value = static_cast<double>(digits) / powers_of_ten[fraction];
-    at = p;
-    return true;
+/// digits * 10^-places, correctly rounded, for digits > 0 and at most 19 places: the quotient of
+/// whole numbers to 63 bits or more, with a last bit that stands for any remainder.
+double exact_quotient(std::uint64_t digits, std::size_t places) {
+    const int digits_shift = std::countl_zero(digits);
+    const std::uint64_t divisor = whole_powers_of_ten[places];
+    const int divisor_shift = std::countl_zero(divisor);
+    __extension__ using Wide = unsigned __int128;
+    // Below 2^127 over at least 2^63: less than 2^64, and at least 2^62.
+    const Wide dividend = static_cast<Wide>(digits << static_cast<unsigned>(digits_shift)) << 63U;
+    const std::uint64_t normal_divisor = divisor << static_cast<unsigned>(divisor_shift);
+    auto quotient = static_cast<std::uint64_t>(dividend / normal_divisor);
+    const auto back = static_cast<Wide>(quotient) * normal_divisor;
+    quotient |= back != dividend ? 1U : 0U;
+    // Conversion rounds once, and well, as at least 62 bits say on which side of the middle between
+    // two doubles the quotient lies, or that it is there. Scaling is exact.
+    return std::ldexp(static_cast<double>(quotient), divisor_shift - digits_shift - 63);
 }
 
-} // namespace
-
-ScannedNumber scan_number(const char* begin, const char* end) {
+/// Numbers of any length and size.
+ScannedNumber scan_any_number(const char* begin, const char* end) {
     const char* p = begin;
     const bool negative = p != end && *p == '-';
     if (p != end && (*p == '-' || *p == '+'))
         ++p;
-    double short_value = 0;
-    if (scan_short_decimal(p, end, short_value))
-        return {negative ? -short_value : short_value, p, ScannedNumber::Outcome::good};
-
     const Decimal decimal = scan_decimal(p, end);
     if (decimal.end == p)
         return {0, begin, ScannedNumber::Outcome::not_a_number};
 
+    // As below, with exponents.
+    constexpr std::uint64_t largest_exact = std::uint64_t{1} << 53U;
     double value = 0;
     if (decimal.digit_count <= 19 && decimal.digits <= largest_exact && decimal.exponent >= -22
         && decimal.exponent <= 22) {
@@ -143,6 +139,42 @@ ScannedNumber scan_number(const char* begin, const char* end) {
         negative ? -value : value,
         decimal.end,
         too_large ? ScannedNumber::Outcome::too_large : ScannedNumber::Outcome::good};
+}
+
+} // namespace
+
+// Numbers of at most 19 digits without exponent, as almost all are, end here; others are read again
+// from their beginning.
+ScannedNumber scan_number(const char* begin, const char* end) {
+    constexpr std::ptrdiff_t most_digits = 19;
+    const char* p = begin;
+    const bool negative = p != end && *p == '-';
+    if (p != end && (*p == '-' || *p == '+'))
+        ++p;
+    std::uint64_t digits = 0;
+    const char* const whole = p;
+    for (; p != end && is_digit(*p); ++p)
+        digits = 10 * digits + static_cast<std::uint64_t>(*p - '0');
+    std::ptrdiff_t count = p - whole;
+    std::size_t places = 0;
+    if (p != end && *p == '.') {
+        const char* const fraction = ++p;
+        for (; p != end && is_digit(*p); ++p)
+            digits = 10 * digits + static_cast<std::uint64_t>(*p - '0');
+        places = static_cast<std::size_t>(p - fraction);
+        count += p - fraction;
+    }
+    // With more digits, the sum above has overflowed.
+    if (count == 0 || count > most_digits || (p != end && (*p == 'e' || *p == 'E')))
+        return scan_any_number(begin, end);
+
+    // Digits below 2^53 and powers of ten up to 10^22 are exact doubles, so that one division
+    // rounds correctly (Clinger 1990).
+    constexpr std::uint64_t largest_exact = std::uint64_t{1} << 53U;
+    const double value = digits <= largest_exact
+        ? static_cast<double>(digits) / powers_of_ten[places]
+        : exact_quotient(digits, places);
+    return {negative ? -value : value, p, ScannedNumber::Outcome::good};
 }
 
 } // namespace vera

@@ -184,7 +184,8 @@ void WordReader::take() {
 }
 
 WordPlace WordReader::place() {
-    return place_of(at_, std::max<std::size_t>(peek().size(), 1));
+    const std::string_view word = peek();
+    return place_of(word.data(), std::max<std::size_t>(word.size(), 1));
 }
 
 bool WordReader::at_line_start() {
@@ -203,7 +204,10 @@ void WordReader::expected(std::string_view what, std::string remedy) {
 }
 
 std::optional<double> WordReader::number(const char* part, const char* what) {
-    skip_space();
+    if (at_ != end_ && *at_ == ' ')
+        ++at_;
+    if (at_ == end_ || *at_ <= ' ' || *at_ == '(')
+        skip_space();
     const ScannedNumber scanned = scan_number(at_, end_);
     const bool whole_word =
         scanned.end == end_ || is_space(*scanned.end) || word_end(scanned.end) == scanned.end;

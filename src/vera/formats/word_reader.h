@@ -73,7 +73,7 @@ public:
 
     /// Lets the memory of what has been read go, now and then, when the text is a mapped file.
     void forget_what_was_read() {
-        constexpr std::size_t step = 16'000'000;
+        constexpr std::size_t step = 4'000'000;
         if (offset() - forgotten_ > step) {
             forgotten_ = offset();
             text_.forget(forgotten_);
