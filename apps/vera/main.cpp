@@ -1,4 +1,72 @@
 // SPDX-License-Identifier: Apache-2.0
-int main() {
-    return 0;
+#include "vera/accel/simd_level.h"
+#include "vera/base/diagnostic.h"
+#include "vera/base/version.h"
+
+#include <new>
+#include <system_error>
+
+#include "command.h"
+#include "interrupt.h"
+#include "messages.h"
+#include "usage.h"
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace {
+
+using vera::Console;
+using vera::ExitCode;
+
+ExitCode run(CLI::App& app, Console& console, int argc, char** argv) {
+    try {
+        vera::honour_simd_environment();
+        app.parse(argc, argv);
+        return ExitCode::good;
+    } catch (const CLI::Success& help) {
+        app.exit(help); // prints the help or the version
+        return ExitCode::good;
+    } catch (const CLI::ParseError& error) {
+        vera::print_error(vera::usage_problem(app, error), console);
+        return ExitCode::wrong_command_line;
+    } catch (const vera::CommandLineError& error) {
+        vera::print_error(vera::with_help_hint(app, error.what()), console);
+        return ExitCode::wrong_command_line;
+    } catch (const vera::InputError& error) {
+        vera::print_diagnostics(error.diagnostics(), console);
+        return ExitCode::wrong_input;
+    } catch (const vera::Cancelled&) {
+        vera::print_note("vera: interrupted; no picture was written", console);
+        return ExitCode::interrupted;
+    } catch (const std::bad_alloc&) {
+        vera::print_error("out of memory; nothing was written", console);
+        return ExitCode::machine_failed;
+    } catch (const std::exception& error) {
+        vera::print_error(error.what(), console);
+        return ExitCode::machine_failed;
+    }
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    Console console;
+    vera::raise_on_interrupt(console.cancel);
+
+    CLI::App app("VERA turns a scene file into a picture that can be trusted.", "vera");
+    app.set_version_flag("--version", std::string("vera ") + vera::version);
+    app.require_subcommand(1);
+    app.set_help_all_flag();
+    app.footer("Examples:\n"
+               "  vera render scene.vera -o picture.png\n"
+               "  vera render bunny.obj -o bunny.png --raster 1024x1024\n"
+               "  vera check scene.vera\n"
+               "  vera info scene.vera\n"
+               "'vera COMMAND --help' tells more of a command.\n"
+               "Exit codes: 0 good, 1 the input is wrong, 2 the command line is wrong,\n"
+               "3 the machine failed, 130 interrupted.");
+    vera::add_render_command(app, console);
+    vera::add_check_command(app, console);
+    vera::add_info_command(app, console);
+    return static_cast<int>(run(app, console, argc, argv));
 }

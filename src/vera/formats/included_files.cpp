@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/formats/included_files.h"
 
-#include "vera/base/similar_words.h"
 #include "vera/formats/mesh_file.h"
+#include "vera/formats/similar_file.h"
 #include "vera/formats/word_reader.h"
 
 #include <algorithm>
@@ -15,22 +15,6 @@
 namespace vera {
 
 namespace {
-
-/// "; did you mean 'bunny.ply'?" when the folder holds a file of such a name, else nothing.
-std::string similar_file(const std::filesystem::path& path) {
-    constexpr std::size_t most_files = 10'000;
-    std::vector<std::string> names;
-    std::error_code error;
-    const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
-    for (auto entry = std::filesystem::directory_iterator(folder, error);
-         !error && entry != std::filesystem::directory_iterator() && names.size() < most_files;
-         entry.increment(error))
-        names.push_back(entry->path().filename().string());
-    // Folders list their files in any order.
-    std::sort(names.begin(), names.end());
-    const auto similar = most_similar(path.filename().string(), names);
-    return similar ? fmt::format("; did you mean {}?", shown(*similar)) : std::string();
-}
 
 std::string extension_of(const std::filesystem::path& path) {
     std::string extension = path.extension().string();
@@ -57,7 +41,7 @@ IncludedFiles::existing(std::string_view name, const WordPlace& place) {
     if (status.type() == std::filesystem::file_type::not_found) {
         complaints_.error(
             place,
-            fmt::format("there is no file {}{}", shown(name), similar_file(path)),
+            fmt::format("there is no file {}{}", shown(name), similar_file(path, "; ")),
             "files are looked for in the folder of the file that names them");
         return std::nullopt;
     }

@@ -43,6 +43,10 @@ Mesh read_mesh_text(const SourceText& text, SceneFormat format, std::vector<Diag
 SceneFile mesh_scene(const SourceText& text, SceneFormat format) {
     SceneFile file;
     file.scene.files.push_back(text.name());
+    // A mesh brings neither light nor surroundings: it is shown in soft light before a pale sky.
+    file.scene.defaults.ambient = {0.25, 0.25, 0.25};
+    file.scene.defaults.firmament = Firmament{
+        .sky = {0.62, 0.72, 0.86}, .horizon = {0.93, 0.95, 0.97}, .earth = {0.86, 0.86, 0.85}};
     Geometry& geometry = file.scene.geometry;
     geometry.meshes.push_back(read_mesh_text(text, format, file.warnings));
     geometry.items.push_back({.kind = ItemKind::mesh, .line = 1});

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/formats/source_text.h"
 
+#include "vera/formats/similar_file.h"
+
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -55,8 +57,13 @@ SourceText::SourceText(const std::filesystem::path& path)
         name_ = "<standard input>";
     const OpenFile file = {
         standard_input ? STDIN_FILENO : open(path.c_str(), O_RDONLY | O_CLOEXEC), !standard_input};
-    if (file.descriptor < 0)
-        throw_for(name_, errno);
+    if (file.descriptor < 0) {
+        const int error = errno;
+        throw std::system_error(
+            error,
+            std::generic_category(),
+            "cannot read '" + name_ + "'" + (error == ENOENT ? similar_file(path, "; ") : ""));
+    }
     struct stat status = {};
     if (fstat(file.descriptor, &status) != 0)
         throw_for(name_, errno);

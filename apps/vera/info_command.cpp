@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vera/accel/grid_tree.h"
+#include "vera/scene/bounds.h"
+
+#include "command.h"
+#include "messages.h"
+#include "prepared_scene.h"
+#include "progress_display.h"
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace vera {
+
+namespace {
+
+struct Request {
+    SceneRequest scene;
+    bool json = false;
+};
+
+/// How many there are of each kind in the main scene and in all subscenes, each subscene once.
+struct Counts {
+    std::size_t spheres = 0;
+    std::size_t triangles = 0;
+    std::size_t polygons = 0;
+    std::size_t patches = 0;
+    std::size_t rotational_shapes = 0;
+    std::size_t meshes = 0;
+    std::size_t mesh_triangles = 0;
+    std::size_t subscene_calls = 0;
+};
+
+void add(Counts& counts, const Geometry& geometry) {
+    counts.spheres += geometry.spheres.size();
+    counts.triangles += geometry.triangles.size();
+    counts.polygons += geometry.polygons.size();
+    counts.patches += geometry.patches.size();
+    counts.rotational_shapes += geometry.rotational_shapes.size();
+    counts.meshes += geometry.meshes.size();
+    for (const Mesh& mesh : geometry.meshes)
+        counts.mesh_triangles += mesh.triangle_count();
+    counts.subscene_calls += geometry.calls.size();
+}
+
+nlohmann::ordered_json as_json(Vec3 a) {
+    return {a.x, a.y, a.z};
+}
+
+nlohmann::ordered_json scene_json(const Scene& scene) {
+    Counts counts;
+    add(counts, scene.geometry);
+    for (const Geometry& subscene : scene.subscenes)
+        add(counts, subscene);
+    const Box3 box = bounds(scene);
+    nlohmann::ordered_json json = {
+        {"version", 1},
+        {"primitives", scene.geometry.primitive_count},
+        {"spheres", counts.spheres},
+        {"triangles", counts.triangles},
+        {"polygons", counts.polygons},
+        {"patches", counts.patches},
+        {"rotational_shapes", counts.rotational_shapes},
+        {"meshes", counts.meshes},
+        {"mesh_triangles", counts.mesh_triangles},
+        {"subscenes", scene.subscenes.size()},
+        {"subscene_calls", counts.subscene_calls},
+        {"materials", scene.materials.size()},
+        {"lights", scene.lights.size()}};
+    if (!box.empty())
+        json["bounds"] = {{"lower", as_json(box.lower)}, {"upper", as_json(box.upper)}};
+    return json;
+}
+
+nlohmann::ordered_json grid_json(const GridForecast& forecast, const GridTreeStatistics& grid) {
+    return {
+        {"forecast_bytes", forecast.bytes},
+        {"memory_bytes", grid.bytes},
+        {"grids", grid.grids},
+        {"levels", grid.levels},
+        {"cells", grid.cells},
+        {"empty_cells", grid.empty_cells},
+        {"references", grid.references},
+        {"longest_list", grid.longest_list}};
+}
+
+std::string bytes_text(double bytes) {
+    if (bytes < 1024)
+        return fmt::format("{:.0f} bytes", bytes);
+    const char* unit = "KiB";
+    bytes /= 1024;
+    for (const char* larger : {"MiB", "GiB", "TiB"}) {
+        if (bytes < 1024)
+            break;
+        bytes /= 1024;
+        unit = larger;
+    }
+    return fmt::format("{:.1f} {}", bytes, unit);
+}
+
+void print_scene(const nlohmann::ordered_json& scene) {
+    for (const auto& [name, value] : scene.items()) {
+        if (name == "version")
+            continue;
+        std::string label = name;
+        for (char& letter : label)
+            letter = letter == '_' ? ' ' : letter;
+        if (name == "bounds") {
+            const auto& lower = value["lower"];
+            const auto& upper = value["upper"];
+            fmt::print(
+                "bounds              {} {} {}  to  {} {} {}\n",
+                lower[0].get<double>(),
+                lower[1].get<double>(),
+                lower[2].get<double>(),
+                upper[0].get<double>(),
+                upper[1].get<double>(),
+                upper[2].get<double>());
+        } else if (value.get<std::uint64_t>() > 0 || name == "primitives" || name == "lights") {
+            fmt::print("{:<18}  {}\n", label, value.get<std::uint64_t>());
+        }
+    }
+}
+
+void print_grid(const GridForecast& forecast, const GridTreeStatistics& grid) {
+    const double cells = static_cast<double>(std::max<std::uint64_t>(grid.cells, 1));
+    const double full =
+        static_cast<double>(std::max<std::uint64_t>(grid.cells - grid.empty_cells, 1));
+    fmt::print("tree of grids\n");
+    fmt::print("  grids             {}, in {} levels\n", grid.grids, grid.levels);
+    fmt::print(
+        "  cells             {}, {:.1f} % of them empty\n",
+        grid.cells,
+        100 * static_cast<double>(grid.empty_cells) / cells);
+    fmt::print(
+        "  references        {}; {:.2f} in a cell that is not empty, {} at most\n",
+        grid.references,
+        static_cast<double>(grid.references) / full,
+        grid.longest_list);
+    fmt::print(
+        "  memory            {} (forecast: {})\n",
+        bytes_text(static_cast<double>(grid.bytes)),
+        bytes_text(static_cast<double>(forecast.bytes)));
+}
+
+void print_info(const Request& request, const Console& console) {
+    const PreparedScene prepared = prepared_scene(request.scene);
+    print_diagnostics(prepared.warnings, console);
+    const GridSettings settings;
+    const GridForecast forecast = grid_forecast(prepared.scene, settings);
+    ProgressDisplay display(console, "index");
+    const GridTreeStatistics grid =
+        make_grid_tree(prepared.scene, settings, display.callback(), &console.cancel)->statistics();
+    nlohmann::ordered_json json = scene_json(prepared.scene);
+    if (request.json) {
+        json["grid"] = grid_json(forecast, grid);
+        fmt::print("{}\n", json.dump(2));
+        return;
+    }
+    print_scene(json);
+    print_grid(forecast, grid);
+}
+
+} // namespace
+
+/// vera info SCENE
+void add_info_command(CLI::App& app, Console& console) {
+    const auto request = std::make_shared<Request>();
+
+    CLI::App* info = app.add_subcommand("info", "what a scene holds, and its tree of grids");
+    add_scene_options(*info, request->scene);
+    info->add_flag("--json", request->json, "the same as JSON");
+    add_console_options(*info, console);
+    info->footer("Examples:\n"
+                 "  vera info scene.vera\n"
+                 "  vera info bunny.obj --json");
+
+    info->callback([request, &console] { print_info(*request, console); });
+}
+
+} // namespace vera

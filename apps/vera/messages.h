@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "vera/base/diagnostic.h"
+
+#include <span>
+#include <string_view>
+
+#include "command.h"
+
+namespace vera {
+
+/// Prints diagnostics to stderr; of warnings and notes nothing when the console is quiet.
+void print_diagnostics(std::span<const Diagnostic> diagnostics, const Console& console);
+
+/// Prints "vera: error: message" to stderr.
+void print_error(std::string_view message, const Console& console);
+
+/// Prints a line to stderr unless the console is quiet.
+void print_note(std::string_view message, const Console& console);
+
+/// Whether stderr gets colours: as asked for, else on a terminal unless NO_COLOR is set.
+bool uses_color(const Console& console);
+
+/// One diagnostic as a JSON object in the stated form (docs/json.md), as text.
+std::string to_json(std::span<const Diagnostic> diagnostics);
+
+} // namespace vera

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "picture_options.h"
+
+#include "vera/formats/control_file.h"
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+#include "command.h"
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace vera {
+
+namespace {
+
+constexpr std::uint32_t most_pixels_across = 1U << 20U;
+
+/// "640x480"
+std::pair<std::uint32_t, std::uint32_t> raster_of(const std::string& text) {
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    const char* const end = text.data() + text.size();
+    const auto first = std::from_chars(text.data(), end, width);
+    const bool separated =
+        first.ec == std::errc() && first.ptr != end && (*first.ptr == 'x' || *first.ptr == 'X');
+    const auto second = separated ? std::from_chars(first.ptr + 1, end, height) : first;
+    const bool read = separated && second.ec == std::errc() && second.ptr == end;
+    if (!read || width < 1 || height < 1 || width > most_pixels_across
+        || height > most_pixels_across)
+        throw CommandLineError(fmt::format(
+            "--raster takes WIDTHxHEIGHT in pixels, from 1x1 to {0}x{0}, as in 640x480; found "
+            "'{1}'",
+            most_pixels_across,
+            text));
+    return {width, height};
+}
+
+bool switch_of(const char* option, const std::string& text) {
+    if (text == "on")
+        return true;
+    if (text == "off")
+        return false;
+    throw CommandLineError(fmt::format("{} takes on or off; found '{}'", option, text));
+}
+
+std::uint32_t whole_of(const char* option, double value, std::uint32_t least, std::uint32_t most) {
+    if (!(value >= least && value <= most) || value != std::floor(value))
+        throw CommandLineError(fmt::format(
+            "{} takes a whole number from {} to {}; found {}", option, least, most, value));
+    return static_cast<std::uint32_t>(value);
+}
+
+double number_of(const char* option, double value, double least, double most) {
+    if (!(value >= least && value <= most))
+        throw CommandLineError(
+            fmt::format("{} takes a number from {} to {}; found {}", option, least, most, value));
+    return value;
+}
+
+Color color_of(const char* option, const std::vector<double>& values) {
+    for (const double value : values)
+        if (!std::isfinite(value))
+            throw CommandLineError(fmt::format("{} takes three finite numbers", option));
+    return {values[0], values[1], values[2]};
+}
+
+void override_light(const PictureOptions& options, PictureSettings& settings) {
+    if (!options.ambient.empty())
+        settings.ambient = color_of("--ambient", options.ambient);
+    if (!options.sky.empty()) {
+        const Color sky = color_of("--sky", options.sky);
+        settings.firmament = Firmament{sky, sky, sky};
+    }
+    if (options.horizon.empty() && options.earth.empty())
+        return;
+    if (!settings.firmament)
+        throw CommandLineError("--horizon and --earth need a sky: give --sky R G B too");
+    if (!options.horizon.empty()) {
+        settings.firmament->horizon = color_of("--horizon", options.horizon);
+        if (!options.sky.empty())
+            settings.firmament->earth = settings.firmament->horizon;
+    }
+    if (!options.earth.empty())
+        settings.firmament->earth = color_of("--earth", options.earth);
+}
+
+void override_antialiasing(const PictureOptions& options, Antialiasing& antialiasing) {
+    if (!options.antialias.empty())
+        antialiasing.on = switch_of("--antialias", options.antialias);
+    if (options.samples) {
+        antialiasing.samples = whole_of("--samples", *options.samples, 2, 256);
+        if ((antialiasing.samples & (antialiasing.samples - 1)) != 0)
+            throw CommandLineError(fmt::format(
+                "--samples takes a power of two from 2 to 256; found {}", antialiasing.samples));
+    }
+    if (options.tolerance)
+        antialiasing.tolerance = number_of("--tolerance", *options.tolerance, 0, 1);
+}
+
+} // namespace
+
+void add_picture_options(CLI::App& command, PictureOptions& options) {
+    command
+        .add_option(
+            "-c,--control", options.control_file, "control file with the picture's settings")
+        ->type_name("FILE");
+    const char* const group = "Picture (each overrides the control file)";
+    command.add_option("--raster", options.raster, "pixels across and down")
+        ->type_name("WxH")
+        ->group(group);
+    command.add_option("--depth", options.depth, "levels of the ray tree; 1: no mirrors, no glass")
+        ->type_name("N")
+        ->group(group);
+    command.add_option("--shadows", options.shadows, "whether objects cast shadows")
+        ->type_name("on|off")
+        ->group(group);
+    command.add_option("--antialias", options.antialias, "whether edges are smoothed")
+        ->type_name("on|off")
+        ->group(group);
+    command
+        .add_option("--samples", options.samples, "rays of a pixel that is refined, a power of two")
+        ->type_name("N")
+        ->group(group);
+    command
+        .add_option(
+            "--tolerance",
+            options.tolerance,
+            "difference between neighbours, 0 to 1, that refines a pixel")
+        ->type_name("X")
+        ->group(group);
+    const auto color = [&](const char* name, std::vector<double>& value, const char* help) {
+        command.add_option(name, value, help)->expected(3)->type_name("R G B")->group(group);
+    };
+    color("--ambient", options.ambient, "light that comes from everywhere");
+    color("--sky", options.sky, "colour of the sky overhead");
+    color("--horizon", options.horizon, "colour of the sky at the horizon");
+    color("--earth", options.earth, "colour below the horizon");
+    command
+        .add_option(
+            "--exposure", options.exposure, "0 measures the light; up to 1 scales it to that")
+        ->type_name("E")
+        ->group(group);
+    command
+        .add_option(
+            "--frame",
+            options.frame_margin,
+            "frame the whole scene, with this part of the picture as margin")
+        ->type_name("MARGIN")
+        ->group(group);
+    command
+        .add_option("--aspect", options.pixel_aspect, "width of a pixel by its height, for framing")
+        ->type_name("X")
+        ->group(group);
+}
+
+PictureSettings picture_settings(
+    const PictureOptions& options, const Scene& scene, std::vector<Diagnostic>& warnings) {
+    PictureSettings settings = scene.defaults;
+    if (!options.control_file.empty())
+        settings = read_control_file(options.control_file, scene.defaults, warnings);
+    if (!options.raster.empty())
+        std::tie(settings.width, settings.height) = raster_of(options.raster);
+    if (options.depth)
+        settings.depth =
+            whole_of("--depth", *options.depth, 1, std::numeric_limits<std::int32_t>::max());
+    if (!options.shadows.empty())
+        settings.shadows = switch_of("--shadows", options.shadows);
+    override_antialiasing(options, settings.antialiasing);
+    override_light(options, settings);
+    if (options.exposure)
+        settings.exposure = number_of("--exposure", *options.exposure, 0, 1);
+    if (options.frame_margin)
+        settings.frame_margin = number_of("--frame", *options.frame_margin, 0, 0.45);
+    if (options.pixel_aspect)
+        settings.pixel_aspect = number_of("--aspect", *options.pixel_aspect, 0.01, 100);
+    return settings;
+}
+
+std::string control_text(const PictureSettings& settings) {
+    const auto color = [](const char* name, Color value) {
+        return fmt::format(" {} {} {} {}", name, value.r, value.g, value.b);
+    };
+    std::string text =
+        fmt::format("RASTER {} {} RTDEPTH {}", settings.width, settings.height, settings.depth);
+    if (settings.exposure)
+        text += fmt::format(" EXPMES {}", *settings.exposure);
+    text += color("AMBIENT", settings.ambient);
+    if (settings.firmament) {
+        text += color("SKY", settings.firmament->sky);
+        text += color("HORIZON", settings.firmament->horizon);
+        text += color("EARTH", settings.firmament->earth);
+    }
+    if (settings.shadows)
+        text += " SHADOWS";
+    if (settings.antialiasing.on)
+        text += fmt::format(
+            " ANTI-ALIAS SAMPLES {} TOLERANCE {}",
+            settings.antialiasing.samples,
+            settings.antialiasing.tolerance);
+    if (settings.frame_margin)
+        text += fmt::format(" FRAME {} ASPECT {}", *settings.frame_margin, settings.pixel_aspect);
+    return text;
+}
+
+} // namespace vera

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "prepared_scene.h"
+
+#include "vera/formats/read_scene.h"
+#include "vera/scene/framing.h"
+#include "vera/scene/inspection.h"
+
+#include <CLI/CLI.hpp>
+
+namespace vera {
+
+namespace {
+
+/// Of a scene that is framed without being asked for a margin.
+constexpr double default_margin = 0.05;
+
+Diagnostic warning(const Scene& scene, const Finding& finding) {
+    Diagnostic diagnostic;
+    diagnostic.severity = Severity::warning;
+    diagnostic.place = finding.place;
+    if (diagnostic.place.file.empty() && !scene.files.empty())
+        diagnostic.place.file = scene.files.front();
+    diagnostic.problem = finding.problem;
+    diagnostic.remedy = finding.remedy;
+    return diagnostic;
+}
+
+Camera camera_of(const Scene& scene, const PictureSettings& settings) {
+    const FrameSettings frame = {
+        .width = settings.width,
+        .height = settings.height,
+        .margin = settings.frame_margin.value_or(default_margin),
+        .pixel_aspect = settings.pixel_aspect};
+    if (!scene.camera)
+        return framed_camera(scene, frame);
+    if (!settings.frame_margin)
+        return *scene.camera;
+    return reframed_camera(scene, *scene.camera, frame);
+}
+
+} // namespace
+
+void add_scene_options(CLI::App& command, SceneRequest& request) {
+    command
+        .add_option(
+            "scene",
+            request.path,
+            "scene text (.vera), NFF scene (.nff) or mesh (.obj, .ply, .stl); - for standard input")
+        ->required()
+        ->type_name("SCENE");
+    command
+        .add_option("--scene-format", request.format, "of the scene, where its name does not tell")
+        ->type_name("vera|nff|obj|ply|stl")
+        ->check(CLI::IsMember({"vera", "nff", "obj", "ply", "stl"}));
+    add_picture_options(command, request.picture);
+}
+
+PreparedScene prepared_scene(const SceneRequest& request) {
+    SceneFile file = read_scene(request.path, {.format = scene_format_named(request.format)});
+    PreparedScene prepared;
+    prepared.scene = std::move(file.scene);
+    prepared.warnings = std::move(file.warnings);
+    prepared.settings = picture_settings(request.picture, prepared.scene, prepared.warnings);
+    prepared.camera = camera_of(prepared.scene, prepared.settings);
+    if (!prepared.scene.camera && prepared.scene.lights.empty())
+        prepared.scene.lights = default_lights(prepared.scene, prepared.camera);
+    prepared.scene.camera = prepared.camera;
+    for (const Finding& finding : inspect(prepared.scene, prepared.settings))
+        prepared.warnings.push_back(warning(prepared.scene, finding));
+    return prepared;
+}
+
+} // namespace vera

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "vera/scene/scene.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "command.h"
+#include "picture_options.h"
+
+namespace CLI {
+class App;
+} // namespace CLI
+
+namespace vera {
+
+/// Which scene, and how its picture is to be.
+struct SceneRequest {
+    std::string path;
+    std::string format; ///< of the scene; empty: by the path
+    PictureOptions picture;
+};
+
+/// SCENE, --scene-format and the picture's options.
+void add_scene_options(CLI::App& command, SceneRequest& request);
+
+/// A scene with everything that a picture of it needs.
+struct PreparedScene {
+    Scene scene;
+    PictureSettings settings;
+    Camera camera;
+    std::vector<Diagnostic> warnings; ///< of the readers and of a look at the whole scene
+};
+
+/// Reads the scene and the settings, frames a scene that has no camera or is to be framed, and
+/// lights one that came without camera and lights. Throws as the readers do.
+PreparedScene prepared_scene(const SceneRequest& request);
+
+} // namespace vera

@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vera/base/output_file.h"
+#include "vera/base/version.h"
+#include "vera/formats/source_text.h"
+#include "vera/image/image_file.h"
+#include "vera/render/render_scene.h"
+
+#include <chrono>
+
+#include "command.h"
+#include "messages.h"
+#include "prepared_scene.h"
+#include "progress_display.h"
+#include "scene_index.h"
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace vera {
+
+namespace {
+
+struct Request {
+    SceneRequest scene;
+    IndexRequest index;
+    std::string output;
+    std::string format;
+    double jpeg_quality = 95;
+    std::size_t threads = 0;
+    bool json = false;
+};
+
+/// What a run did and what it cost, for people and as JSON.
+struct Report {
+    double read_seconds = 0;
+    double index_seconds = 0;
+    double render_seconds = 0;
+    double write_seconds = 0;
+    std::size_t index_bytes = 0;
+    RenderStatistics statistics;
+    std::optional<Exposure> exposure;
+};
+
+class Stopwatch {
+public:
+    /// Seconds since the last call, or since this was made.
+    double lap() {
+        const auto now = std::chrono::steady_clock::now();
+        const double seconds = std::chrono::duration<double>(now - last_).count();
+        last_ = now;
+        return seconds;
+    }
+
+private:
+    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+ImageFileFormat output_format(const Request& request) {
+    if (!request.format.empty()) {
+        if (const auto format = format_from_name(request.format))
+            return *format;
+        throw CommandLineError(fmt::format(
+            "--format does not know '{}'; it knows {}", request.format, format_names()));
+    }
+    if (request.output == "-")
+        throw CommandLineError("a picture on standard output needs --format, as in --format png");
+    if (const auto format = format_from_extension(request.output))
+        return *format;
+    throw CommandLineError(fmt::format(
+        "cannot tell the format of '{}' by its name; give --format with one of {}",
+        request.output,
+        format_names()));
+}
+
+/// FNV-1a over all files that the scene was read from: tells two versions of a scene apart.
+std::string scene_hash(const Scene& scene) {
+    std::uint64_t hash = 0xcbf29ce484222325;
+    for (const std::string& path : scene.files) {
+        if (path == "-" || !std::filesystem::is_regular_file(path))
+            continue;
+        const SourceText file(path);
+        for (const char letter : file.text()) {
+            hash ^= static_cast<unsigned char>(letter);
+            hash *= 0x100000001b3;
+        }
+    }
+    return fmt::format("{:016x}", hash);
+}
+
+PictureMetadata metadata(const PreparedScene& prepared) {
+    const auto point = [](Vec3 p) { return fmt::format("{} {} {}", p.x, p.y, p.z); };
+    const Camera& camera = prepared.camera;
+    const bool parallel = camera.projection == Camera::Projection::parallel;
+    return {
+        {"Software", fmt::format("vera {}", version)},
+        {"Scene hash", scene_hash(prepared.scene)},
+        {"Settings", control_text(prepared.settings)},
+        {"Camera",
+         fmt::format(
+             "{} {} {} {} {}",
+             parallel ? "PARALLEL" : "PROJECTION",
+             point(parallel ? camera.direction : camera.viewpoint),
+             point(camera.lower_left),
+             point(camera.lower_right),
+             point(camera.upper_left))}};
+}
+
+nlohmann::ordered_json as_json(const Report& report) {
+    const RenderStatistics& counts = report.statistics;
+    nlohmann::ordered_json json = {
+        {"version", 1},
+        {"rays",
+         {{"view_rays", counts.view_rays},
+          {"extra_view_rays", counts.extra_view_rays},
+          {"probe_rays", counts.probe_rays},
+          {"shadow_rays", counts.shadow_rays},
+          {"mirrored_rays", counts.mirrored_rays},
+          {"refracted_rays", counts.refracted_rays}}},
+        {"refined_pixels", counts.refined_pixels},
+        {"tests", counts.queries.tests},
+        {"cells", counts.queries.cells},
+        {"index_bytes", report.index_bytes},
+        {"seconds",
+         {{"read", report.read_seconds},
+          {"index", report.index_seconds},
+          {"render", report.render_seconds},
+          {"write", report.write_seconds}}}};
+    if (report.exposure)
+        json["exposure"] = {
+            {"rays", report.exposure->rays},
+            {"target", report.exposure->target},
+            {"brightness", report.exposure->brightness},
+            {"part_too_bright", report.exposure->part_too_bright},
+            {"factor", report.exposure->factor}};
+    return json;
+}
+
+std::string as_text(const Report& report, const std::string& output) {
+    const RenderStatistics& counts = report.statistics;
+    return fmt::format(
+        "{}: {} view rays, {} for antialiasing, {} shadow, {} mirrored, {} refracted; {} to read, "
+        "{} to "
+        "index, {} to render",
+        output,
+        counts.view_rays,
+        counts.extra_view_rays + counts.probe_rays,
+        counts.shadow_rays,
+        counts.mirrored_rays,
+        counts.refracted_rays,
+        duration_text(report.read_seconds),
+        duration_text(report.index_seconds),
+        duration_text(report.render_seconds));
+}
+
+/// What the exposure measurement found, as a photographer would want to hear it.
+void print_exposure(const Exposure& exposure, const Console& console) {
+    if (exposure.rays == 0) {
+        print_note("exposure: no ray of the measurement hit anything", console);
+        return;
+    }
+    const char* const verdict = exposure.brightness > 1 ? "too bright"
+        : exposure.brightness < 0.5                     ? "too dark"
+                                                        : "good";
+    std::string text = fmt::format(
+        "exposure: brightness {:.3g} of 1 ({}), {:.1f} % of the rays beyond full scale",
+        exposure.brightness,
+        verdict,
+        100 * exposure.part_too_bright);
+    if (exposure.target == 0 && exposure.full_factor)
+        text += fmt::format(
+            "; the light times {:.3g} would just fill the scale", *exposure.full_factor);
+    if (exposure.target > 0 && exposure.reachable)
+        text += fmt::format("; the light was multiplied by {:.6g}", exposure.factor);
+    print_note(text, console);
+    if (!exposure.reachable) {
+        Diagnostic warning;
+        warning.severity = Severity::warning;
+        warning.place.file = "EXPMES";
+        warning.problem = fmt::format(
+            "no factor on the light brings the picture to {:.3g}; it stays as it is",
+            exposure.target);
+        warning.remedy = "what glows by itself or shows the sky does not change with the light";
+        print_diagnostics({&warning, 1}, console);
+    }
+}
+
+void render(const Request& request, const Console& console) {
+    const ImageFileFormat format = output_format(request);
+    if (!(request.jpeg_quality >= 1 && request.jpeg_quality <= 100))
+        throw CommandLineError("--quality takes a number from 1 to 100");
+    const ThreadLimit limit(request.threads);
+    Report report;
+    Stopwatch watch;
+
+    PreparedScene prepared = prepared_scene(request.scene);
+    print_diagnostics(prepared.warnings, console);
+    // Opened before the long work, so that a folder that is not there shows at once.
+    OutputFile file(request.output);
+    report.read_seconds = watch.lap();
+
+    std::unique_ptr<RayIndex> index;
+    {
+        ProgressDisplay display(console, "index");
+        index = scene_index(prepared.scene, request.index, display.callback(), console.cancel);
+    }
+    report.index_bytes = index->memory();
+    report.index_seconds = watch.lap();
+
+    Image image;
+    {
+        ProgressDisplay display(console, "render");
+        RenderResult result = render_scene(
+            prepared.scene,
+            prepared.camera,
+            *index,
+            prepared.settings,
+            sample_type(format),
+            display.callback(),
+            &console.cancel);
+        image = std::move(result.image);
+        report.statistics = result.statistics;
+        report.exposure = result.exposure;
+    }
+    if (report.exposure)
+        print_exposure(*report.exposure, console);
+    report.render_seconds = watch.lap();
+
+    write_image(
+        image,
+        file,
+        format,
+        metadata(prepared),
+        {.jpeg_quality = static_cast<int>(request.jpeg_quality)});
+    file.commit();
+    report.write_seconds = watch.lap();
+
+    if (request.json)
+        fmt::print(request.output == "-" ? stderr : stdout, "{}\n", as_json(report).dump(2));
+    else
+        print_note(as_text(report, request.output), console);
+}
+
+} // namespace
+
+/// vera render SCENE -o PICTURE
+void add_render_command(CLI::App& app, Console& console) {
+    const auto request = std::make_shared<Request>();
+
+    CLI::App* command = app.add_subcommand("render", "a ray traced picture of a scene or mesh");
+    add_scene_options(*command, request->scene);
+    command->add_option("-o,--output", request->output, "picture to write; - for standard output")
+        ->required()
+        ->type_name("PICTURE");
+    command
+        ->add_option(
+            "--format",
+            request->format,
+            "of the picture, where its name does not tell: " + format_names())
+        ->type_name("NAME");
+    command->add_option("--quality", request->jpeg_quality, "of a JPEG picture, 1 to 100")
+        ->type_name("Q")
+        ->capture_default_str();
+    command->add_option("--threads", request->threads, "0: one for each processor")
+        ->type_name("N")
+        ->capture_default_str();
+    add_index_options(*command, request->index);
+    command->add_flag("--json", request->json, "rays, tests and times as JSON on standard output");
+    add_console_options(*command, console);
+    command->footer("Examples:\n"
+                    "  vera render still_life.vera -c still_life.ctl -o still_life.png\n"
+                    "  vera render scene.vera -o draft.png --raster 320x240 --antialias off\n"
+                    "  vera render bunny.obj -o bunny.exr\n"
+                    "  vera render balls.nff --format ppm -o - | display");
+
+    command->callback([request, &console] { render(*request, console); });
+}
+
+} // namespace vera

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace CLI {
+class App;
+class ParseError;
+} // namespace CLI
+
+namespace vera {
+
+/// One line on what is wrong with the command line, with "did you mean" for a word that is like one
+/// of ours, and a hint at the help.
+std::string usage_problem(const CLI::App& app, const CLI::ParseError& error);
+
+/// The problem, and the command whose help tells more.
+std::string with_help_hint(const CLI::App& app, std::string_view problem);
+
+} // namespace vera

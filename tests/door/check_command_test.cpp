@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "door/program.h"
+
+namespace vera {
+namespace {
+
+TEST(CheckCommand, IsContentWithAGoodScene) {
+    const ScratchFolder folder;
+    folder.write("a.vera", small_scene);
+    const ProgramRun run = run_vera(folder, "check a.vera");
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ(run.out, "a.vera: good\n");
+}
+
+TEST(CheckCommand, WarnsOfASceneThatWouldBeBlack) {
+    const ScratchFolder folder;
+    folder.write(
+        "a.vera", "PROJECTION 0 2 8  -2 0 0  2 0 0  -2 4 0\nCM a SP 0 0 0 1 MA a DRF 1 1 1\n");
+    const ProgramRun run = run_vera(folder, "check a.vera");
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_NE(run.err.find("warning: "), std::string::npos) << run.err;
+    EXPECT_EQ(run.out, "a.vera: good, with 1 warning\n");
+}
+
+TEST(CheckCommand, GivesDiagnosticsAsJson) {
+    const ScratchFolder folder;
+    folder.write("a.vera", "PROJECTION 0 2 8  -2 0 0  2 0 0  -2 4 0\nSP 0 1 blue 1\n");
+    const ProgramRun run = run_vera(folder, "check a.vera --json");
+    EXPECT_EQ(run.exit_code, 1);
+    EXPECT_NE(run.out.find("\"line\": 2"), std::string::npos) << run.out;
+    EXPECT_NE(run.out.find("\"column\": 8"), std::string::npos) << run.out;
+    EXPECT_NE(run.out.find("\"good\": false"), std::string::npos) << run.out;
+}
+
+TEST(CheckCommand, ReadsTheControlFileToo) {
+    const ScratchFolder folder;
+    folder.write("a.vera", small_scene);
+    folder.write("a.ctl", "RASTER 512 0\n");
+    const ProgramRun run = run_vera(folder, "check a.vera -c a.ctl");
+    EXPECT_EQ(run.exit_code, 1);
+    EXPECT_NE(run.err.find("a.ctl:1:12: error: "), std::string::npos) << run.err;
+}
+
+} // namespace
+} // namespace vera

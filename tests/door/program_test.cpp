@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include "door/program.h"
+
+namespace vera {
+namespace {
+
+TEST(Program, TellsItsVersion) {
+    const ScratchFolder folder;
+    const ProgramRun run = run_vera(folder, "--version");
+    EXPECT_EQ(run.exit_code, 0);
+    EXPECT_EQ(run.out.substr(0, 5), "vera ");
+    EXPECT_EQ(run.err, "");
+}
+
+TEST(Program, HelpsOnItselfAndEveryCommandWithExamples) {
+    const ScratchFolder folder;
+    for (const char* arguments : {"--help", "render --help", "check --help", "info --help"}) {
+        const ProgramRun run = run_vera(folder, arguments);
+        EXPECT_EQ(run.exit_code, 0) << arguments;
+        EXPECT_NE(run.out.find("Examples:"), std::string::npos) << arguments;
+        EXPECT_EQ(run.err, "") << arguments;
+    }
+}
+
+TEST(Program, SaysWhatIsWrongWithACommandLine) {
+    const ScratchFolder folder;
+
+    const struct {
+        const char* arguments;
+        const char* problem;
+    } wrong[] = {
+        {"", "vera: error: say what to do: render, check or info"},
+        {"rendr a.vera", "vera: error: unknown command 'rendr'; did you mean 'render'?"},
+        {"render a.vera -o a.png --rastr 5x5",
+         "unknown option '--rastr'; did you mean '--raster'?"},
+        {"render a.vera", "--output is required"},
+        {"render", "scene is required"},
+        {"render a.vera -o a.png extra", "unknown argument 'extra'"},
+    };
+
+    for (const auto& [arguments, problem] : wrong) {
+        const ProgramRun run = run_vera(folder, arguments);
+        EXPECT_EQ(run.exit_code, 2) << arguments;
+        EXPECT_EQ(run.out, "") << arguments;
+        EXPECT_NE(run.err.find(problem), std::string::npos) << arguments << '\n' << run.err;
+        EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    }
+}
+
+} // namespace
+} // namespace vera
