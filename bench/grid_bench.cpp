@@ -274,7 +274,7 @@ int main(int count, char** arguments) {
         "faster",
         "fewer tests");
     for (const bool spheres : {true, false})
-        for (const std::size_t size : {100, 1000, 10'000, 100'000, 1'000'000})
+        for (std::size_t size = 100; size <= 1'000'000; size *= 10)
             bench_cloud(size, spheres);
     return 0;
 }

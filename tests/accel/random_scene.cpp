@@ -66,7 +66,7 @@ private:
         result.first_corner = static_cast<std::uint32_t>(geometry.corners.size());
         result.corner_count = 4;
         result.normal = normalized(cross(e, f));
-        const std::size_t shape = below(3);
+        const std::size_t shape = below(4);
         Vec3 last = p + f;
         Vec3 third = p + e + f;
         if (shape == 1) {
@@ -75,6 +75,8 @@ private:
         } else if (shape == 2) {
             result.shape = Polygon::Shape::split_quadrangle;
             last = last + length(e) * result.normal;
+        } else if (shape == 3) {
+            third = p + 0.5 * e + 1.5 * f;
         }
         for (const Vec3& corner : {p, p + e, third, last})
             geometry.corners.push_back(corner);

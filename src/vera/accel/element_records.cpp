@@ -4,6 +4,8 @@
 #include "vera/base/check.h"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 namespace vera::detail {
 
@@ -28,6 +30,37 @@ ElementRecord triangle_record(const GeometryGrids& grids, Vec3 a, Vec3 b, Vec3 c
         local_point(grids, a),
         grids.scale * (b - a),
         grids.scale * (c - a));
+}
+
+/// Nothing where the corners are not well placed for it: then the box has to do.
+std::optional<ElementRecord> quadrangle_record(const GeometryGrids& grids, const Vec3* corners) {
+    const Vec3 e = corners[1] - corners[0];
+    const Vec3 f = corners[3] - corners[0];
+    const Vec3 opposite = corners[2] - corners[0];
+    const Vec3 normal = cross(e, f);
+    const double normal_squared = dot(normal, normal);
+    // Where the edges at the corner make a sharp angle, x and y are large or badly known.
+    if (!(normal_squared > 0.01 * dot(e, e) * dot(f, f)))
+        return std::nullopt;
+    const double x = dot(cross(opposite, f), normal) / normal_squared;
+    const double y = dot(cross(e, opposite), normal) / normal_squared;
+    const Vec3 off = grids.scale * (opposite - x * e - y * f);
+    if (!(std::abs(x) < 4) || !(std::abs(y) < 4) || !(max_component(abs(off)) < 0x1p-22))
+        return std::nullopt;
+    ElementRecord record = triangle_record(grids, corners[0], corners[1], corners[3]);
+    record.kind = ElementRecord::Kind::quadrangle;
+    record.values[9] = static_cast<float>(x);
+    record.values[10] = static_cast<float>(y);
+    return record;
+}
+
+ElementRecord
+polygon_record(const GeometryGrids& grids, const Polygon& polygon, const Box3& local_box) {
+    if (polygon.shape == Polygon::Shape::convex && polygon.corner_count == 4)
+        if (const auto record =
+                quadrangle_record(grids, grids.geometry->corners.data() + polygon.first_corner))
+            return *record;
+    return record_of(ElementRecord::Kind::box, local_box.lower, local_box.upper, {});
 }
 
 ElementRecord cylinder_record(const GeometryGrids& grids, const RotationalShape& shape) {
@@ -90,7 +123,7 @@ ElementRecord element_record(const GeometryGrids& grids, Element element, const 
     case ItemKind::rotational_shape:
         return cylinder_record(grids, geometry.rotational_shapes[item.index]);
     case ItemKind::polygon:
-        return record_of(ElementRecord::Kind::box, local_box.lower, local_box.upper, {});
+        return polygon_record(grids, geometry.polygons[item.index], local_box);
     case ItemKind::subscene_call:
         return record_of(ElementRecord::Kind::call, local_box.lower, local_box.upper, {});
     }

@@ -102,18 +102,23 @@ meets_ball(const Rays<Width>& rays, const float* center, float radius, std::size
     return bits<Width>(hn::And(near, hn::Ge(rays.limit, zero)), lane);
 }
 
+/// A triangle, or where fourth says where its opposite corner lies, a quadrangle.
 template <std::size_t Width>
-HWY_INLINE LaneMask
-meets_triangle(const Rays<Width>& rays, const float* values, float slack, std::size_t lane) {
+HWY_INLINE LaneMask meets_face(
+    const Rays<Width>& rays,
+    const float* values,
+    const float* fourth,
+    float slack,
+    std::size_t lane) {
     const float* a = values;
     const float* e = values + 3;
     const float* f = values + 6;
     float largest = 0;
     for (std::size_t i = 3; i < 9; ++i)
         largest = std::max(largest, std::abs(values[i]));
-    // Moving the ray by slack changes a volume with the edge by at most slack times the edge's
+    // Moving the ray by slack changes a volume with an edge by at most slack times the edge's
     // length, which is at most sqrt(3) times its largest component; the third is a sum of two.
-    const float volume_slack = 4 * slack * largest;
+    float volume_slack = 4 * slack * largest;
     const float depth_slack = 8 * slack * largest * largest;
 
     const Vec<Width> normal[3] = {
@@ -127,18 +132,32 @@ meets_triangle(const Rays<Width>& rays, const float* values, float slack, std::s
     cross3(to_corner, rays.direction, moment);
     const Vec<Width> edge_e[3] = {all<Width>(e[0]), all<Width>(e[1]), all<Width>(e[2])};
     const Vec<Width> edge_f[3] = {all<Width>(f[0]), all<Width>(f[1]), all<Width>(f[2])};
+    // The ray meets the plane at corner + (u e + v f) / speed, where t is depth / speed.
     const auto speed = dot3(normal, rays.direction);
     const auto depth = dot3(normal, to_corner);
     const auto u = dot3(moment, edge_f);
     const auto v = hn::Neg(dot3(moment, edge_e));
-    const auto w = hn::Sub(hn::Sub(speed, u), v);
 
-    const auto more = all<Width>(volume_slack);
-    const auto less = all<Width>(-volume_slack);
-    const auto lowest = hn::Min(u, hn::Min(v, w));
-    const auto highest = hn::Max(u, hn::Max(v, w));
-    const auto met = hn::Or(hn::Ge(lowest, less), hn::Le(highest, more));
-    // t speed = depth: 0 <= t <= limit.
+    auto lowest = hn::Min(u, v);
+    auto highest = hn::Max(u, v);
+    if (fourth == nullptr) {
+        const auto w = hn::Sub(hn::Sub(speed, u), v);
+        lowest = hn::Min(lowest, w);
+        highest = hn::Max(highest, w);
+    } else {
+        // Left of the sides from (1, 0) to the fourth corner and from there to (0, 1).
+        const float x = fourth[0];
+        const float y = fourth[1];
+        volume_slack *= 2 * (1 + std::abs(x) + std::abs(y));
+        const auto side =
+            hn::Sub(hn::Mul(all<Width>(x - 1), v), hn::Mul(all<Width>(y), hn::Sub(u, speed)));
+        const auto other =
+            hn::Sub(hn::Mul(all<Width>(y - 1), u), hn::Mul(all<Width>(x), hn::Sub(v, speed)));
+        lowest = hn::Min(lowest, hn::Min(side, other));
+        highest = hn::Max(highest, hn::Max(side, other));
+    }
+    const auto met = hn::Or(
+        hn::Ge(lowest, all<Width>(-volume_slack)), hn::Le(highest, all<Width>(volume_slack)));
     const auto size = hn::Abs(speed);
     const auto forward = hn::CopySignToAbs(all<Width>(1), speed);
     const auto t_size = hn::Mul(depth, forward);
@@ -209,7 +228,9 @@ may_meet_part(const Frame& frame, const ElementRecord& record, std::size_t lane)
     case ElementRecord::Kind::sphere:
         return meets_ball<Width>(rays_at<Width>(frame, lane), values, values[3] + 2 * slack, lane);
     case ElementRecord::Kind::triangle:
-        return meets_triangle<Width>(rays_at<Width>(frame, lane), values, slack, lane);
+        return meets_face<Width>(rays_at<Width>(frame, lane), values, nullptr, slack, lane);
+    case ElementRecord::Kind::quadrangle:
+        return meets_face<Width>(rays_at<Width>(frame, lane), values, values + 9, slack, lane);
     case ElementRecord::Kind::cylinder:
         return meets_cylinder<Width>(rays_at<Width>(frame, lane), values, slack, lane);
     case ElementRecord::Kind::box:

@@ -43,14 +43,16 @@ struct Grid {
 /// the element, in local coordinates.
 struct ElementRecord {
     enum class Kind : std::uint32_t {
-        sphere,   ///< center, radius
-        triangle, ///< corner, edge to the second corner, edge to the third
-        box,      ///< lower corner, upper corner
-        cylinder, ///< center, axis (unit), radius, half its length
-        call      ///< of a subscene: as box
+        sphere,     ///< center, radius
+        triangle,   ///< corner, edge e to the second corner, edge f to the third
+        quadrangle, ///< corner, edges e and f to its neighbours, x and y: corner + x e + y f is the
+                    ///< opposite corner
+        box,        ///< lower corner, upper corner
+        cylinder,   ///< center, axis (unit), radius, half its length
+        call        ///< of a subscene: as box
     };
 
-    std::array<float, 9> values = {};
+    std::array<float, 11> values = {};
     Kind kind = Kind::box;
 };
 

@@ -18,8 +18,8 @@ constexpr std::uint32_t no_element = ~std::uint32_t{0};
 float limit_of(const PacketQuery& query, const Frame& frame, std::size_t lane) {
     if (frame.speed[lane] == 0) // see place_rays
         return static_cast<float>((query.active >> lane & 1U) != 0 ? farthest : -farthest);
-    const double distance =
-        (query.limit[lane] - frame.start_t[lane]) * frame.speed[lane] + 2.0 * double{frame.slack};
+    const double distance = (query.limit[lane] - frame.start_t[lane]) * frame.speed[lane]
+        + 2 * static_cast<double>(frame.slack);
     return static_cast<float>(std::min(distance, farthest) * (1 + 0x1p-20));
 }
 
