@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cstdio>
+
 #include <vera/base/version.h>
 #include <vera/math/transform.h>
-
-#include <cstdio>
 
 int main() {
     const vera::Affine3 turn = vera::rotation({0, 0, 90});
