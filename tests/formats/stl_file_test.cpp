@@ -96,7 +96,7 @@ TEST(ReadStl, SaysWhereABinaryFileIsWrong) {
 TEST(ReadStl, PassesOverWhatFollowsTheTriangles) {
     EXPECT_EQ(
         said_of(read_stl, binary("x", 1)),
-        "test: warning: byte 134: the 50 bytes behind the last of 1 triangle are passed over\n");
+        "test: warning: byte 134: what follows the last triangle is passed over: 50 bytes\n");
 }
 
 TEST(ReadStl, LeavesOutTrianglesWithoutAreaAndSaysSoOnce) {

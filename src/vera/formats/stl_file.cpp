@@ -49,78 +49,94 @@ bool is_binary(std::string_view text) {
     return text.substr(0, 1024).find('\0') != std::string_view::npos;
 }
 
-Mesh read_binary(const SourceText& source, std::vector<Diagnostic>& warnings) {
-    SourceReport report(source, SourceReport::Places::bytes);
-    MeshBuilder builder(report);
-    const std::string_view text = source.text();
-    const std::uint64_t count =
-        text.size() < triangles_begin ? 0 : little_endian(text.data() + header_size);
-    const std::uint64_t room =
-        text.size() < triangles_begin ? 0 : (text.size() - triangles_begin) / triangle_size;
-    if (text.size() < triangles_begin) {
-        report.error(
-            text.size(),
-            1,
-            "expected the 84 bytes that a binary STL file begins with, but the file ends",
-            "an ascii STL file begins with 'solid'");
-        report.finish(warnings);
-    }
-    if (count > room) {
-        report.error(
-            header_size,
-            4,
-            fmt::format(
-                "{} promised, but the file has room for {}",
-                counted(count, "triangle is", "triangles are"),
-                room),
-            "the file is cut short: get a whole copy of it (an ascii STL file begins with "
-            "'solid')");
-        report.finish(warnings);
-    }
-    if (text.size() > triangles_begin + count * triangle_size)
-        report.warning(
-            triangles_begin + count * triangle_size,
-            1,
-            fmt::format(
-                "the {} behind the last of {} are passed over",
-                counted(text.size() - triangles_begin - count * triangle_size, "byte", "bytes"),
-                counted(count, "triangle", "triangles")));
+class BinaryReader {
+public:
+    explicit BinaryReader(const SourceText& source)
+        : report_(source, SourceReport::Places::bytes)
+        , text_(source.text())
+        , builder_(report_)
+        , points_(builder_.mesh().positions) {}
 
-    // Room for corners that are all different, as far as that is ever touched.
-    builder.reserve(3 * count, count);
-    SharedPoints points(builder.mesh().positions);
-    for (std::uint64_t i = 0; i < count && !report.full(); ++i) {
+    Mesh read(std::vector<Diagnostic>& warnings) {
+        const std::uint64_t count = triangle_count();
+        // Room for corners that are all different, as far as that is ever touched.
+        builder_.reserve(3 * count, count);
+        for (std::uint64_t i = 0; i < count && !report_.full(); ++i)
+            if (!read_triangle(i))
+                break;
+        return builder_.finish(warnings);
+    }
+
+private:
+    /// As many as there are in the file, whatever it promises.
+    std::uint64_t triangle_count() {
+        if (text_.size() < triangles_begin) {
+            report_.error(
+                text_.size(),
+                1,
+                "expected the 84 bytes that a binary STL file begins with, but the file ends",
+                "an ascii STL file begins with 'solid'");
+            return 0;
+        }
+        const std::uint64_t count = little_endian(text_.data() + header_size);
+        const std::uint64_t room = (text_.size() - triangles_begin) / triangle_size;
+        if (count > room) {
+            report_.error(
+                header_size,
+                4,
+                fmt::format(
+                    "{} promised, but the file has room for {}",
+                    counted(count, "triangle is", "triangles are"),
+                    room),
+                "the file is cut short: get a whole copy of it (an ascii STL file begins with "
+                "'solid')");
+            return 0;
+        }
+        const std::uint64_t end = triangles_begin + count * triangle_size;
+        if (text_.size() > end)
+            report_.warning(
+                end,
+                1,
+                "what follows the last triangle is passed over: "
+                    + counted(text_.size() - end, "byte", "bytes"));
+        return count;
+    }
+
+    /// Whether there is use in reading on.
+    bool read_triangle(std::uint64_t i) {
         const std::size_t start = triangles_begin + i * triangle_size;
         std::array<MeshCorner, 3> corners;
-        bool good = true;
         for (std::size_t c = 0; c < 3; ++c) {
-            std::array<double, 3> at = {};
-            for (std::size_t axis = 0; axis < 3; ++axis)
-                // Behind the facet's normal, which follows from the corners.
-                at[axis] = static_cast<double>(std::bit_cast<float>(
-                    little_endian(text.data() + start + 12 + 12 * c + 4 * axis)));
-            const Vec3 point = {at[0], at[1], at[2]};
+            // Behind the facet's normal, which follows from the corners.
+            const std::size_t place = start + 12 + 12 * c;
+            const Vec3 point = {coordinate(place), coordinate(place + 4), coordinate(place + 8)};
             if (!is_finite(point)) {
-                report.error(
-                    start + 12 + 12 * c,
+                report_.error(
+                    place,
                     12,
                     fmt::format(
                         "corner {} of triangle {} has a coordinate that is not a finite number",
                         c + 1,
                         i + 1),
                     "repair the program that wrote the file, or delete what uses this number");
-                good = false;
+                return true;
             }
-            good = good && builder.room_for_another(builder.mesh().positions, start);
-            if (!good)
-                break;
-            corners[c].position = points.number_of(point);
+            if (!builder_.room_for_another(builder_.mesh().positions, start))
+                return false;
+            corners[c].position = points_.number_of(point);
         }
-        if (good)
-            builder.add_face(corners, start);
+        return builder_.add_face(corners, start);
     }
-    return builder.finish(warnings);
-}
+
+    double coordinate(std::size_t offset) const {
+        return static_cast<double>(std::bit_cast<float>(little_endian(text_.data() + offset)));
+    }
+
+    SourceReport report_;
+    std::string_view text_;
+    MeshBuilder builder_;
+    SharedPoints points_;
+};
 
 class AsciiReader {
 public:
@@ -216,7 +232,7 @@ private:
 
 Mesh read_stl(const SourceText& source, std::vector<Diagnostic>& warnings) {
     if (is_binary(source.text()))
-        return read_binary(source, warnings);
+        return BinaryReader(source).read(warnings);
     return AsciiReader(source).read(warnings);
 }
 
