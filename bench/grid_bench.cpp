@@ -89,22 +89,24 @@ Measurement measured_shadows(const RayIndex& index, const std::vector<QueryRay>&
     });
 }
 
-/// In tiles of 32 x 32, within them row by row as the renderer does.
+/// In tiles of 32 x 32, within them in squares of 4 x 4, as the renderer does.
 std::vector<QueryRay> view_rays(const Camera& camera, std::size_t size) {
-    std::vector<QueryRay> rays;
     constexpr std::size_t side = 32;
-    for (std::size_t tile_y = 0; tile_y < size; tile_y += side)
-        for (std::size_t tile_x = 0; tile_x < size; tile_x += side)
-            for (std::size_t y = tile_y; y < std::min(size, tile_y + side); ++y)
-                for (std::size_t x = tile_x; x < std::min(size, tile_x + side); ++x) {
-                    QueryRay query;
-                    const auto n = static_cast<double>(size);
-                    query.ray = view_ray(
-                        camera,
-                        (static_cast<double>(x) + 0.5) / n,
-                        (static_cast<double>(y) + 0.5) / n);
-                    rays.push_back(query);
-                }
+    constexpr std::size_t square = 4;
+    const auto n = static_cast<double>(size);
+    std::vector<QueryRay> rays(size * size);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const std::size_t tile = i / (side * side);
+        const std::size_t in_tile = i % (side * side);
+        const std::size_t block = in_tile / (square * square);
+        const std::size_t in_block = in_tile % (square * square);
+        const std::size_t x =
+            tile % (size / side) * side + block % (side / square) * square + in_block % square;
+        const std::size_t y =
+            tile / (size / side) * side + block / (side / square) * square + in_block / square;
+        rays[i].ray = view_ray(
+            camera, (static_cast<double>(x) + 0.5) / n, (static_cast<double>(y) + 0.5) / n);
+    }
     return rays;
 }
 
