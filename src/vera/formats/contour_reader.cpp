@@ -99,6 +99,9 @@ bool leaves_half_plane(Point start, const ContourPiece& piece) {
     if (piece.kind == ContourPiece::Kind::line)
         return false; // its ends were looked at
     const double size = std::max({size_of(start), size_of(piece.control[0]), size_of(piece.end)});
+    // The pieces of an arc have ends that were not written.
+    if (piece.end.r < 0)
+        return true;
     if (piece.kind == ContourPiece::Kind::conic) {
         // A quadratic with coefficients a, b, c >= 0 in Bernstein's form is negative somewhere
         // between its ends just when b < -sqrt(a c).

@@ -107,11 +107,6 @@ std::optional<Mesh> IncludedFiles::mesh(const std::filesystem::path& path, const
         return std::nullopt;
     }
     complaints_.add(warnings);
-    if (mesh->triangle_count() == 0) {
-        complaints_.warn(
-            "empty meshes", place, fmt::format("{} has no triangles", shown(path.string())));
-        return std::nullopt;
-    }
     return mesh;
 }
 

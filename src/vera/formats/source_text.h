@@ -10,6 +10,10 @@
 
 namespace vera {
 
+/// How many bytes the UTF-8 character at the beginning of the text has, which must not be empty; 0
+/// when there is none.
+std::size_t character_length(std::string_view text);
+
 /// The bytes of an input file, and what a diagnostic needs to point into them. A regular file is
 /// mapped, not copied; "-" is standard input. Keeps no table of lines: places are worked out when
 /// they are asked for, which errors alone do.
@@ -35,7 +39,7 @@ public:
     SourcePlace place(std::size_t offset) const;
 
     /// The whole line that holds the byte at the offset, without its end, at most 4096 bytes of it
-    /// and then none of what follows.
+    /// and then none of what follows. Bytes that are not UTF-8 are shown as '?'.
     std::string line_at(std::size_t offset) const;
 
     /// A diagnostic that marks length bytes at the offset.

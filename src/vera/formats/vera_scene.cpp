@@ -104,9 +104,9 @@ private:
     }
 
     void complain_of_word(std::string_view word) {
-        std::vector<std::string_view> candidates(optional_words_.begin(), optional_words_.end());
-        candidates.insert(
-            candidates.end(), scene_words.begin(), scene_words.begin() + statement_word_count);
+        std::vector<std::string_view> candidates(
+            scene_words.begin(), scene_words.begin() + statement_word_count);
+        candidates.insert(candidates.end(), optional_words_.begin(), optional_words_.end());
         std::string similar;
         std::string remedy;
         if (std::find(scene_words.begin(), scene_words.end(), word) != scene_words.end())
@@ -232,9 +232,9 @@ private:
         if (text == nullptr)
             return;
         constexpr std::size_t most_nested = 100;
-        constexpr std::size_t most_inclusions = 60'000;
+        constexpr std::size_t most_inclusions = 10'000;
         for (const auto& reader : texts_)
-            if (&reader->text() == text || is_same_file(reader->text(), *text))
+            if (is_same(reader->text(), *text))
                 return complaints_.error(
                     place,
                     fmt::format("{} includes itself{}", shown(*name), inclusion_path(*text)),
@@ -243,23 +243,28 @@ private:
             return complaints_.error(
                 place,
                 texts_.size() > most_nested ? "more than 100 files include one another"
-                                            : "more than 60000 INCLUDE statements are followed");
+                                            : "more than 10000 INCLUDE statements are followed");
         begin_text(*text);
     }
 
-    static bool is_same_file(const SourceText& a, const SourceText& b) {
+    /// Whether both are of one file. Included files have one text each; the first text may be
+    /// included as another.
+    bool is_same(const SourceText& reading, const SourceText& text) const {
         std::error_code error;
-        return std::filesystem::equivalent(a.name(), b.name(), error);
+        return &reading == &text
+            || (&reading == &texts_.front()->text()
+                && std::filesystem::equivalent(reading.name(), text.name(), error));
     }
 
-    /// " through 'b.vera' and 'c.vera'": the files between the text and the current one.
+    /// " through 'b.vera', 'c.vera'": the files between the text and the current one.
     std::string inclusion_path(const SourceText& text) const {
         std::string path;
         bool inside = false;
         for (const auto& reader : texts_) {
+            const std::filesystem::path name = reader->text().name();
             if (inside)
-                path += (path.empty() ? " through " : ", ") + shown(reader->text().name());
-            inside = inside || &reader->text() == &text || is_same_file(reader->text(), text);
+                path += (path.empty() ? " through " : ", ") + shown(name.filename().string());
+            inside = inside || is_same(reader->text(), text);
         }
         return path;
     }

@@ -26,22 +26,6 @@ bool is_digit(char letter) {
     return letter >= '0' && letter <= '9';
 }
 
-/// How many bytes the UTF-8 character at the beginning of the text has; 0 when it is not one.
-std::size_t character_length(std::string_view text) {
-    const auto first = static_cast<unsigned char>(text[0]);
-    const std::size_t length = first < 0x80 ? 1
-        : first >= 0xc2 && first < 0xe0     ? 2
-        : first >= 0xe0 && first < 0xf0     ? 3
-        : first >= 0xf0 && first < 0xf5     ? 4
-                                            : 0;
-    if (length > text.size())
-        return 0;
-    for (std::size_t i = 1; i < length; ++i)
-        if ((static_cast<unsigned char>(text[i]) & 0xc0U) != 0x80)
-            return 0;
-    return length;
-}
-
 void replace_all(std::string& text, std::string_view from, std::string_view to) {
     for (std::size_t at = text.find(from); at != std::string::npos;
          at = text.find(from, at + to.size()))
