@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 namespace vera {
 
@@ -154,6 +155,60 @@ inline Verdict for_each_cone_crossing(
     return Verdict::settled;
 }
 
+/// Whether the ray comes near the ring-shaped block that holds the curved piece, in its range: the
+/// piece lies between its control points. Few rays do, and the search is only for those.
+inline bool may_meet_curve(
+    const PreparedRay& prepared,
+    const AxialRay& axial,
+    const ContourPiece& contour,
+    ContourPiece::Point from) {
+    double least_r = std::min(from.r, contour.end.r);
+    double most_r = std::max(from.r, contour.end.r);
+    double least_h = std::min(from.h, contour.end.h);
+    double most_h = std::max(from.h, contour.end.h);
+    const std::size_t controls = contour.kind == ContourPiece::Kind::cubic ? 2 : 1;
+    for (std::size_t i = 0; i < controls; ++i) {
+        least_r = std::min(least_r, contour.control[i].r);
+        most_r = std::max(most_r, contour.control[i].r);
+        least_h = std::min(least_h, contour.control[i].h);
+        most_h = std::max(most_h, contour.control[i].h);
+    }
+    const double size = most_r + std::abs(least_h) + std::abs(most_h) + std::abs(axial.height);
+    const double margin = uncertain_part * size;
+
+    // The part of the ray, first <= s <= last, at these heights.
+    double first = -std::numeric_limits<double>::infinity();
+    double last = -first;
+    if (axial.rise != 0) {
+        const double at_least = (least_h - margin - axial.height) / axial.rise;
+        const double at_most = (most_h + margin - axial.height) / axial.rise;
+        first = std::min(at_least, at_most);
+        last = std::max(at_least, at_most);
+    } else if (axial.height < least_h - margin || axial.height > most_h + margin) {
+        return false;
+    }
+    const double first_t = axial.t_reference + first;
+    const double last_t = axial.t_reference + last;
+    const auto margin_of = [&](double t, double s) {
+        return uncertain_part * (std::abs(t) + std::abs(s) + std::abs(axial.t_reference));
+    };
+    if (first_t - margin_of(first_t, first) > prepared.ray.t_max
+        || last_t + margin_of(last_t, last) < prepared.ray.t_min)
+        return false;
+    if (axial.a == 0)
+        return true;
+
+    // The ray's distance from the axis there, squared, and where it is least.
+    const double nearest = std::clamp(-axial.b / axial.a, first, last);
+    const double margin_squared =
+        uncertain_part * (axial.c + axial.a * nearest * nearest + most_r * most_r);
+    if (axial.radius_squared_at(nearest) > (most_r + margin) * (most_r + margin) + margin_squared)
+        return false;
+    const double farthest = std::max(axial.radius_squared_at(first), axial.radius_squared_at(last));
+    const double hole = least_r - margin;
+    return !(hole > 0 && farthest * (1 + uncertain_part) < hole * hole - uncertain_part * axial.c);
+}
+
 template <typename Sink>
 inline void
 sink_covered(const PreparedRay& prepared, const PieceCrossings& found, const Sink& sink) {
@@ -181,10 +236,11 @@ inline void for_each_rotational_crossing(
         const detail::ContourLine line{from, contour.end};
         const auto sink_piece = [&](double t) { sink(t, piece); };
         if (contour.kind != ContourPiece::Kind::line) {
-            detail::sink_covered(
-                prepared,
-                crossings_beyond_start(prepared, axial, shape, i, starts_here),
-                sink_piece);
+            if (detail::may_meet_curve(prepared, axial, contour, from))
+                detail::sink_covered(
+                    prepared,
+                    crossings_beyond_start(prepared, axial, shape, i, starts_here),
+                    sink_piece);
         } else if (!(line.is_ring() && starts_here)) {
             const detail::Verdict verdict = line.is_ring()
                 ? detail::for_each_ring_crossing(prepared, shape, axial, line, sink_piece)
