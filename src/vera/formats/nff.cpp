@@ -60,21 +60,28 @@ private:
         std::size_t polygons = 0;
         std::size_t triangles = 0;
         std::size_t patches = 0;
+        std::size_t corners = 0;
+        bool in_polygon = false;
         for (TextCursor counter = cursor_; !counter.at_end(); counter.skip_line()) {
             const std::string_view word = counter.word();
             spheres += word == "s" ? 1 : 0;
             cones += word == "c" ? 1 : 0;
+            if (!word.empty() && word.front() >= 'a')
+                in_polygon = false;
+            corners += in_polygon ? 1 : 0;
             if (word != "p" && word != "pp")
                 continue;
             counter.pass(word);
             counter.skip_blanks_of_line();
             const bool three = counter.word() == "3";
             ++(word == "pp" ? patches : three ? triangles : polygons);
+            in_polygon = word == "p" && !three;
         }
         Geometry& geometry = scene_.geometry;
         geometry.spheres.reserve(spheres);
         geometry.rotational_shapes.reserve(cones);
         geometry.polygons.reserve(polygons);
+        geometry.corners.reserve(corners);
         geometry.triangles.reserve(triangles);
         geometry.patches.reserve(patches);
         geometry.items.reserve(spheres + cones + polygons + triangles + patches);
