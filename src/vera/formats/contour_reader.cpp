@@ -65,9 +65,15 @@ Circle circle_through(Point a, Point b, Point c) {
 /// upwards.
 enum class Sense { clockwise, counterclockwise };
 
-/// Adds the arc of the circle that goes from start to end in that sense.
+/// Adds the arc of the circle that goes from start to end in that sense, cut in two at most so
+/// many times over.
 void add_arc(
-    const Circle& circle, Point start, Point end, Sense sense, std::vector<ContourPiece>& pieces) {
+    const Circle& circle,
+    Point start,
+    Point end,
+    Sense sense,
+    int cuts,
+    std::vector<ContourPiece>& pieces) {
     const Point chord = end - start;
     const double length = std::sqrt(dot(chord, chord));
     const Point right = {chord.h / length, -chord.r / length};
@@ -77,13 +83,13 @@ void add_arc(
     // piece it would have a control point far away, or, from 180 degrees on, none.
     const double cosine = dot(0.5 * (start + end) - circle.center, outward) / circle.radius;
     constexpr double smallest_cosine = 0.5 - 0x1p-20;
-    if (cosine < smallest_cosine) {
+    if (cosine < smallest_cosine && cuts > 0) {
         Point middle = circle.center + circle.radius * outward;
         // An arc that touches the axis in its middle.
         if (std::abs(middle.r) <= 0x1p-40 * circle.radius)
             middle.r = 0;
-        add_arc(circle, start, middle, sense, pieces);
-        add_arc(circle, middle, end, sense, pieces);
+        add_arc(circle, start, middle, sense, cuts - 1, pieces);
+        add_arc(circle, middle, end, sense, cuts - 1, pieces);
         return;
     }
     ContourPiece piece;
@@ -186,8 +192,22 @@ Pieces read_arc(WordReader& words, const WordPlace& keyword, Point start) {
     }
     const Sense sense =
         cross(*middle - start, *end - *middle) > 0 ? Sense::counterclockwise : Sense::clockwise;
+    // Less than a whole turn: four pieces of less than 90 degrees.
+    constexpr int most_cuts = 2;
     std::vector<ContourPiece> pieces;
-    add_arc(circle_through(start, *middle, *end), start, *end, sense, pieces);
+    add_arc(circle_through(start, *middle, *end), start, *end, sense, most_cuts, pieces);
+    // Rounding leaves no circle through points that are almost on a line and far apart or huge.
+    const bool usable = std::all_of(pieces.begin(), pieces.end(), [](const ContourPiece& piece) {
+        return piece.weight > 0.25 && std::isfinite(piece.control[0].r)
+            && std::isfinite(piece.control[0].h);
+    });
+    if (!usable) {
+        words.complaints().error(
+            keyword,
+            "the arc's three points are too far apart, or too close to one line, for a circle",
+            "write GE for a straight line");
+        return std::nullopt;
+    }
     return pieces;
 }
 
