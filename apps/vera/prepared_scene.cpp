@@ -25,6 +25,17 @@ Diagnostic warning(const Scene& scene, const Finding& finding) {
     return diagnostic;
 }
 
+/// A scene text whose author may have forgotten the camera; a mesh never has one.
+Diagnostic no_camera(const Scene& scene) {
+    Diagnostic diagnostic;
+    diagnostic.severity = Severity::warning;
+    if (!scene.files.empty())
+        diagnostic.place.file = scene.files.front();
+    diagnostic.problem = "there is no PROJECTION or PARALLEL: the whole scene is framed";
+    diagnostic.remedy = "add one, or say that this is meant: FRAME in the control file, or --frame";
+    return diagnostic;
+}
+
 Camera camera_of(const Scene& scene, const PictureSettings& settings) {
     const FrameSettings frame = {
         .width = settings.width,
@@ -61,6 +72,10 @@ PreparedScene prepared_scene(const SceneRequest& request) {
     prepared.scene = std::move(file.scene);
     prepared.warnings = std::move(file.warnings);
     prepared.settings = picture_settings(request.picture, prepared.scene, prepared.warnings);
+    const SceneFormat format =
+        scene_format_named(request.format).value_or(scene_format_of(request.path));
+    if (!prepared.scene.camera && !prepared.settings.frame_margin && format == SceneFormat::vera)
+        prepared.warnings.push_back(no_camera(prepared.scene));
     prepared.camera = camera_of(prepared.scene, prepared.settings);
     if (!prepared.scene.camera && prepared.scene.lights.empty())
         prepared.scene.lights = default_lights(prepared.scene, prepared.camera);

@@ -22,6 +22,18 @@ TEST(CheckCommand, WarnsOfASceneThatWouldBeBlack) {
     EXPECT_EQ(run.out, "a.vera: good, with 1 warning\n");
 }
 
+TEST(CheckCommand, WarnsOfASceneTextWithoutCameraUnlessFramingIsAskedFor) {
+    const ScratchFolder folder;
+    folder.write("a.vera", "LI 3 6 5  40 1 1 1  CM a  SP 0 0 0 1  MA a DRF 1 1 1\n");
+    const ProgramRun run = run_vera(folder, "check a.vera");
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ(
+        run.err,
+        "a.vera: warning: there is no PROJECTION or PARALLEL: the whole scene is framed\n"
+        "  add one, or say that this is meant: FRAME in the control file, or --frame\n");
+    EXPECT_EQ(run_vera(folder, "check a.vera --frame 0.1").err, "");
+}
+
 TEST(CheckCommand, GivesDiagnosticsAsJson) {
     const ScratchFolder folder;
     folder.write("a.vera", "PROJECTION 0 2 8  -2 0 0  2 0 0  -2 4 0\nSP 0 1 blue 1\n");

@@ -22,16 +22,6 @@ constexpr std::array<std::pair<std::string_view, SceneFormat>, 5> formats = {{
     {"stl", SceneFormat::stl},
 }};
 
-SceneFormat format_of(const std::filesystem::path& path) {
-    std::string extension = path.extension().string();
-    for (char& letter : extension)
-        if (letter >= 'A' && letter <= 'Z')
-            letter = static_cast<char>(letter - 'A' + 'a');
-    if (extension.empty())
-        return SceneFormat::vera;
-    return scene_format_named(std::string_view(extension).substr(1)).value_or(SceneFormat::vera);
-}
-
 Mesh read_mesh_text(const SourceText& text, SceneFormat format, std::vector<Diagnostic>& warnings) {
     if (format == SceneFormat::obj)
         return read_obj(text, warnings);
@@ -62,9 +52,19 @@ std::optional<SceneFormat> scene_format_named(std::string_view name) {
     return std::nullopt;
 }
 
+SceneFormat scene_format_of(const std::filesystem::path& path) {
+    std::string extension = path.extension().string();
+    for (char& letter : extension)
+        if (letter >= 'A' && letter <= 'Z')
+            letter = static_cast<char>(letter - 'A' + 'a');
+    if (extension.empty())
+        return SceneFormat::vera;
+    return scene_format_named(std::string_view(extension).substr(1)).value_or(SceneFormat::vera);
+}
+
 SceneFile read_scene(const std::filesystem::path& path, const ReadSettings& settings) {
     const SourceText text(path);
-    const SceneFormat format = settings.format.value_or(format_of(path));
+    const SceneFormat format = settings.format.value_or(scene_format_of(path));
     SceneFile file = format == SceneFormat::vera ? read_vera_scene(text)
         : format == SceneFormat::nff             ? read_nff(text)
                                                  : mesh_scene(text, format);

@@ -16,6 +16,10 @@ enum class SceneFormat : std::uint8_t { vera, nff, obj, ply, stl };
 /// The format of that name ("vera", "nff", "obj", "ply", "stl"), or nothing.
 std::optional<SceneFormat> scene_format_named(std::string_view name);
 
+/// The format that a path is read in when none is given: by its extension, VERA where that says
+/// nothing.
+SceneFormat scene_format_of(const std::filesystem::path& path);
+
 /// How to read a scene.
 struct ReadSettings {
     std::optional<SceneFormat> format; ///< nothing: by the file name's extension, else VERA
