@@ -83,7 +83,7 @@ const SourceText* IncludedFiles::text(std::string_view name, const WordPlace& pl
 
 std::optional<std::filesystem::path>
 IncludedFiles::mesh_path(std::string_view name, const WordPlace& place) {
-    const auto path = existing(name, place);
+    auto path = existing(name, place);
     if (path && !is_mesh_extension(extension_of(*path))) {
         complaints_.error(
             place,

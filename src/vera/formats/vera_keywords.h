@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 namespace vera {
 
@@ -45,58 +46,43 @@ constexpr std::array<std::string_view, 4> transformation_words = {"MX", "RT", "T
 constexpr std::array<std::string_view, 8> property_words = {
     "DRF", "ARF", "SDI", "SAN", "RAB", "TAB", "SPC", "REF"};
 
-/// The statement that a word begins, or nothing. RS and RK begin the same.
+/// The statements of two letters, those of which texts have most first. RS and RK begin the same.
+inline std::optional<Statement> short_statement_named(std::string_view word) {
+    constexpr std::array<std::pair<std::string_view, Statement>, 11> statements = {{
+        {"P3", Statement::triangle},
+        {"SP", Statement::sphere},
+        {"P4", Statement::quadrangle},
+        {"PA", Statement::patch},
+        {"CM", Statement::material_change},
+        {"IP", Statement::inner_point},
+        {"PN", Statement::polygon},
+        {"RS", Statement::rotational_shape},
+        {"RK", Statement::rotational_shape},
+        {"MA", Statement::material},
+        {"LI", Statement::light},
+    }};
+    for (const auto& [name, statement] : statements)
+        if (word == name)
+            return statement;
+    return std::nullopt;
+}
+
+/// The statement that a word begins, or nothing.
 inline std::optional<Statement> statement_named(std::string_view word) {
-    switch (word.size()) {
-    case 2:
-        if (word == "P3")
-            return Statement::triangle;
-        if (word == "SP")
-            return Statement::sphere;
-        if (word == "P4")
-            return Statement::quadrangle;
-        if (word == "PA")
-            return Statement::patch;
-        if (word == "CM")
-            return Statement::material_change;
-        if (word == "IP")
-            return Statement::inner_point;
-        if (word == "PN")
-            return Statement::polygon;
-        if (word == "RS" || word == "RK")
-            return Statement::rotational_shape;
-        if (word == "MA")
-            return Statement::material;
-        if (word == "LI")
-            return Statement::light;
-        return std::nullopt;
-    case 3:
-        if (word == "SSC")
-            return Statement::subscene_call;
-        return std::nullopt;
-    case 4:
-        if (word == "MESH")
-            return Statement::mesh;
-        return std::nullopt;
-    case 5:
-        if (word == "SCENE")
-            return Statement::subscene;
-        return std::nullopt;
-    case 7:
-        if (word == "INCLUDE")
-            return Statement::include;
-        return std::nullopt;
-    case 8:
-        if (word == "PARALLEL")
-            return Statement::parallel;
-        return std::nullopt;
-    case 10:
-        if (word == "PROJECTION")
-            return Statement::projection;
-        return std::nullopt;
-    default:
-        return std::nullopt;
-    }
+    if (word.size() == 2)
+        return short_statement_named(word);
+    constexpr std::array<std::pair<std::string_view, Statement>, 6> statements = {{
+        {"SSC", Statement::subscene_call},
+        {"MESH", Statement::mesh},
+        {"SCENE", Statement::subscene},
+        {"INCLUDE", Statement::include},
+        {"PARALLEL", Statement::parallel},
+        {"PROJECTION", Statement::projection},
+    }};
+    for (const auto& [name, statement] : statements)
+        if (word == name)
+            return statement;
+    return std::nullopt;
 }
 
 } // namespace vera
