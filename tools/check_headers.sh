@@ -6,7 +6,8 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 check() {
     g++ -std=c++20 -fsyntax-only -x c++ -Isrc -Itests -Ibuild/generated -ffp-contract=off -Wall \
-        -Wextra -Wpedantic -Wshadow -Wconversion -Wdouble-promotion -Werror -include "$1" /dev/null \
+        -Wextra -Wpedantic -Wshadow -Wconversion -Wdouble-promotion -Werror \
+        '-DVERA_SOURCE_DIR=""' '-DVERA_PROGRAM=""' -include "$1" /dev/null \
         || { echo "$1 does not compile alone" >&2; return 1; }
 }
 export -f check

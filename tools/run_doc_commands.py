@@ -4,7 +4,8 @@
 
 In blocks fenced as sh, the lines that begin with "vera" or "./dev help" are run, in order, file by file, each
 file in a new folder that holds scenes/ and dev. A command whose pictures would take long is run with a small
-raster. A line that ends in "# exit N" must exit with N, others with 0. Other lines are not run.
+raster. A line that ends in "# exit N" must exit with N, others with 0. Other lines are not run. Blocks fenced
+as vera are whole scenes, in which "vera check" must find no error.
 
 usage: run_doc_commands.py PROGRAM [DOCUMENT...]
 """
@@ -48,6 +49,25 @@ def commands(text):
         line = EXIT.sub("", line)
         if RUN.match(line):
             yield number, line, expected
+
+
+def scenes(text):
+    """The line number and the text of each scene that is shown as a whole."""
+    for match in re.finditer(r"^```vera\n(.*?)^```", text, re.DOTALL | re.MULTILINE):
+        yield text.count("\n", 0, match.start()) + 1, match.group(1)
+
+
+def check_scenes(path, program):
+    failures = 0
+    for number, scene in scenes(path.read_text(encoding="utf-8")):
+        done = subprocess.run(
+            [program, "check", "-", "--scene-format", "vera"], input=scene.encode(), capture_output=True,
+            timeout=SECONDS)
+        print(f"{path.relative_to(ROOT)}:{number}: a scene")
+        if done.returncode != 0:
+            print(done.stderr.decode(errors="replace"))
+            failures += 1
+    return failures
 
 
 def small(command):
@@ -103,7 +123,8 @@ def main():
         print(__doc__.split("usage: ")[1], file=sys.stderr)
         return 2
     chosen = [pathlib.Path(name).resolve() for name in sys.argv[2:]] or documents()
-    failures = sum(run_document(path, sys.argv[1]) + check_links(path) for path in chosen)
+    failures = sum(
+        run_document(path, sys.argv[1]) + check_scenes(path, sys.argv[1]) + check_links(path) for path in chosen)
     return 1 if failures else 0
 
 
