@@ -42,6 +42,15 @@ constexpr double max_component(Color a) {
     return larger > a.b ? larger : a.b;
 }
 
+/// Channel by channel.
+constexpr Color min(Color a, Color b) {
+    return {a.r < b.r ? a.r : b.r, a.g < b.g ? a.g : b.g, a.b < b.b ? a.b : b.b};
+}
+
+constexpr Color max(Color a, Color b) {
+    return {a.r > b.r ? a.r : b.r, a.g > b.g ? a.g : b.g, a.b > b.b ? a.b : b.b};
+}
+
 constexpr Color clamped(Color a) {
     // Written so that what is not a number becomes 0.
     const auto clamp = [](double value) { return value > 0 ? (value < 1 ? value : 1) : 0; };

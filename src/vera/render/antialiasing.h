@@ -16,9 +16,12 @@ namespace vera {
 /// asks what is hit. A pixel is refined, to `samples` rays, where a neighbour of the eight shows
 /// another surface (see same_surface), or a colour that differs by more than the tolerance from its
 /// own, unless the colours of one surface change evenly from that neighbour to the opposite one.
+/// It gets a quarter of these rays first, well spread, and no more where they and the centre agree
+/// in colour to within the tolerance.
 ///
 /// A thing is thin where one of a pixel's rays sees it but fewer than 5 of the 5 x 5 centres around
-/// do. The 8 neighbours of such a pixel are refined as well, and so on along the thing. Where it
+/// do. The 8 neighbours of such a pixel are refined as well, with all rays, and so on along the
+/// thing. Where it
 /// lies before a plain background, which 13 of the centres see, they get 4 times as many rays (not
 /// more than 256), so that a tenth of a pixel is not missed.
 ///

@@ -42,7 +42,7 @@ template <typename Window>
 Refinement refinement_of_thin(const Window& window) {
     const bool is_plain = std::any_of(
         window.begin(), window.end(), [&](const Seen* one) { return shows(window, *one, 13); });
-    return is_plain ? Refinement::thin : Refinement::edge;
+    return is_plain ? Refinement::thin_alone : Refinement::thin;
 }
 
 } // namespace
@@ -87,11 +87,21 @@ std::uint64_t TileRefiner::picture_pixel(std::size_t pixel) const {
     return row * picture_.raster.width + tile_.x + pixel % tile_.width;
 }
 
-std::uint32_t TileRefiner::sample_count(Refinement refinement) const {
+std::uint32_t TileRefiner::samples_wanted(const Pixel& pixel) const {
     constexpr std::uint32_t most = 256;
+    constexpr std::uint32_t least_in_parts = 8;
     const std::uint32_t samples = picture_.settings.samples;
-    return refinement == Refinement::thin ? std::max(samples, std::min(4 * samples, most))
-                                          : samples;
+    if (pixel.wanted == Refinement::thin_alone)
+        return std::max(samples, std::min(4 * samples, most));
+    // The beginning of a net of samples is a net itself.
+    const bool in_parts = pixel.wanted == Refinement::edge && samples >= least_in_parts;
+    if (in_parts && (pixel.samples == 0 || !differ(pixel)))
+        return samples / 4;
+    return samples;
+}
+
+bool TileRefiner::differ(const Pixel& pixel) const {
+    return !(largest_difference(pixel.least, pixel.most) <= picture_.settings.tolerance);
 }
 
 TileRefiner::Window TileRefiner::window(std::size_t pixel) const {
@@ -243,7 +253,7 @@ void TileRefiner::refine_pending() {
         std::size_t ray_count = 0;
         for (; next < pending_.size() && ray_count < GenerationTracer::generation_size; ++next) {
             Pixel& pixel = pixels_[pending_[next]];
-            const std::uint32_t wanted = sample_count(pixel.wanted);
+            const std::uint32_t wanted = samples_wanted(pixel);
             if (wanted <= pixel.samples)
                 continue;
             jobs_.push_back({pending_[next], pixel.samples, wanted, pixel.wanted});
@@ -267,6 +277,8 @@ void TileRefiner::refine_pending() {
             add_samples(job, first_ray);
             follow_thin_things(job, first_ray);
             develop_pixel(job);
+            if (samples_wanted(pixels_[job.pixel]) > job.last_sample)
+                pending_.push_back(job.pixel);
             first_ray += job.last_sample - job.first_sample;
         }
     }
@@ -295,9 +307,15 @@ void TileRefiner::trace_samples() {
 
 void TileRefiner::add_samples(const Job& job, std::size_t first_ray) {
     // One after another from the first, also when a pixel's samples come in two parts.
-    Color& sum = pixels_[job.pixel].sum;
-    for (std::uint32_t i = 0; i < job.last_sample - job.first_sample; ++i)
-        sum += clamped(colors_[first_ray + i]);
+    Pixel& pixel = pixels_[job.pixel];
+    if (job.first_sample == 0)
+        pixel.least = pixel.most = centers_[center_of(job.pixel)].color;
+    for (std::uint32_t i = 0; i < job.last_sample - job.first_sample; ++i) {
+        const Color color = clamped(colors_[first_ray + i]);
+        pixel.sum += color;
+        pixel.least = min(pixel.least, color);
+        pixel.most = max(pixel.most, color);
+    }
 }
 
 void TileRefiner::follow_thin_things(const Job& job, std::size_t first_ray) {

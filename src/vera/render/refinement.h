@@ -18,9 +18,10 @@ namespace vera {
 
 /// How far a pixel is refined.
 enum class Refinement : std::uint8_t {
-    center, ///< one ray
-    edge,   ///< Antialiasing::samples
-    thin    ///< 4 times as many
+    center,    ///< one ray
+    edge,      ///< a quarter of Antialiasing::samples, and all of them where these differ
+    thin,      ///< all of them
+    thin_alone ///< 4 times as many
 };
 
 /// The wish that a pixel, numbered row by row, be refined.
@@ -69,7 +70,9 @@ private:
     struct Pixel {
         Refinement wanted = Refinement::center;
         std::uint32_t samples = 0;
-        Color sum; ///< of the samples
+        Color sum;   ///< of the samples
+        Color least; ///< of the centre's and the samples' colours, channel by channel
+        Color most;
     };
 
     /// The centres in a pixel's surroundings, row by row.
@@ -96,7 +99,8 @@ private:
     QueryRay center_ray(std::size_t center) const;
     std::size_t center_of(std::size_t pixel) const;
     std::uint64_t picture_pixel(std::size_t pixel) const;
-    std::uint32_t sample_count(Refinement refinement) const;
+    std::uint32_t samples_wanted(const Pixel& pixel) const;
+    bool differ(const Pixel& pixel) const;
 
     const RefinedPicture& picture_;
     GenerationTracer tracer_;

@@ -4,7 +4,6 @@
 #include "vera/math/ray.h"
 
 #include <cmath>
-#include <cstddef>
 #include <limits>
 
 namespace vera {
@@ -18,9 +17,10 @@ namespace vera {
 /// (Woop, Benthin and Wald 2013).
 struct PreparedRay {
     Ray ray;
-    std::size_t x_axis = 0;
-    std::size_t y_axis = 1;
-    std::size_t z_axis = 2;
+    /// The axes across the ray and along it, as members of Vec3: to look one up takes no branches.
+    double Vec3::*x_axis = &Vec3::x;
+    double Vec3::*y_axis = &Vec3::y;
+    double Vec3::*z_axis = &Vec3::z;
     double shear_x = 0;
     double shear_y = 0;
     double direction_z = 1;
@@ -28,13 +28,24 @@ struct PreparedRay {
 
     explicit PreparedRay(const Ray& given)
         : ray(given)
-        , z_axis(longest_axis(given.direction))
         , origin_size(max_component(abs(given.origin))) {
-        x_axis = z_axis == 2 ? 0 : z_axis + 1;
-        y_axis = x_axis == 2 ? 0 : x_axis + 1;
-        direction_z = ray.direction[z_axis];
-        shear_x = ray.direction[x_axis] / direction_z;
-        shear_y = ray.direction[y_axis] / direction_z;
+        switch (longest_axis(given.direction)) {
+        case 0:
+            x_axis = &Vec3::y;
+            y_axis = &Vec3::z;
+            z_axis = &Vec3::x;
+            break;
+        case 1:
+            x_axis = &Vec3::z;
+            y_axis = &Vec3::x;
+            z_axis = &Vec3::y;
+            break;
+        default:
+            break;
+        }
+        direction_z = ray.direction.*z_axis;
+        shear_x = ray.direction.*x_axis / direction_z;
+        shear_y = ray.direction.*y_axis / direction_z;
     }
 
     /// Whether surfaces through the origin are those that the ray starts on. Those of parallel
@@ -65,12 +76,12 @@ struct ShearedPoint {
     double z = 0;
 };
 
-inline ShearedPoint sheared(const PreparedRay& prepared, Vec3 point) {
-    const Vec3 from_origin = point - prepared.ray.origin;
-    const double z = from_origin[prepared.z_axis];
+inline ShearedPoint sheared(const PreparedRay& prepared, const Vec3& point) {
+    const Vec3& origin = prepared.ray.origin;
+    const double z = point.*prepared.z_axis - origin.*prepared.z_axis;
     return {
-        from_origin[prepared.x_axis] - prepared.shear_x * z,
-        from_origin[prepared.y_axis] - prepared.shear_y * z,
+        (point.*prepared.x_axis - origin.*prepared.x_axis) - prepared.shear_x * z,
+        (point.*prepared.y_axis - origin.*prepared.y_axis) - prepared.shear_y * z,
         z};
 }
 
