@@ -5,7 +5,6 @@
 
 #include <charconv>
 #include <cmath>
-#include <limits>
 
 #include "command.h"
 #include <CLI/CLI.hpp>
@@ -15,10 +14,9 @@ namespace vera {
 
 namespace {
 
-constexpr std::uint32_t most_pixels_across = 1U << 20U;
-
 /// "640x480"
 std::pair<std::uint32_t, std::uint32_t> raster_of(const std::string& text) {
+    constexpr std::uint32_t most = PictureLimits::longest_side;
     std::uint32_t width = 0;
     std::uint32_t height = 0;
     const char* const end = text.data() + text.size();
@@ -27,12 +25,11 @@ std::pair<std::uint32_t, std::uint32_t> raster_of(const std::string& text) {
         first.ec == std::errc() && first.ptr != end && (*first.ptr == 'x' || *first.ptr == 'X');
     const auto second = separated ? std::from_chars(first.ptr + 1, end, height) : first;
     const bool read = separated && second.ec == std::errc() && second.ptr == end;
-    if (!read || width < 1 || height < 1 || width > most_pixels_across
-        || height > most_pixels_across)
+    if (!read || width < 1 || height < 1 || width > most || height > most)
         throw CommandLineError(fmt::format(
             "--raster takes WIDTHxHEIGHT in pixels, from 1x1 to {0}x{0}, as in 640x480; found "
             "'{1}'",
-            most_pixels_across,
+            most,
             text));
     return {width, height};
 }
@@ -57,6 +54,15 @@ double number_of(const char* option, double value, double least, double most) {
         throw CommandLineError(
             fmt::format("{} takes a number from {} to {}; found {}", option, least, most, value));
     return value;
+}
+
+double margin_of(double margin) {
+    if (!(margin >= 0 && margin < PictureLimits::widest_margin))
+        throw CommandLineError(fmt::format(
+            "--frame takes the margin, at least 0 and less than {}; found {}",
+            PictureLimits::widest_margin,
+            margin));
+    return margin;
 }
 
 Color color_of(const char* option, const std::vector<double>& values) {
@@ -90,7 +96,8 @@ void override_antialiasing(const PictureOptions& options, Antialiasing& antialia
     if (!options.antialias.empty())
         antialiasing.on = switch_of("--antialias", options.antialias);
     if (options.samples) {
-        antialiasing.samples = whole_of("--samples", *options.samples, 2, 256);
+        antialiasing.samples =
+            whole_of("--samples", *options.samples, 2, PictureLimits::most_samples);
         if ((antialiasing.samples & (antialiasing.samples - 1)) != 0)
             throw CommandLineError(fmt::format(
                 "--samples takes a power of two from 2 to 256; found {}", antialiasing.samples));
@@ -163,8 +170,7 @@ PictureSettings picture_settings(
     if (!options.raster.empty())
         std::tie(settings.width, settings.height) = raster_of(options.raster);
     if (options.depth)
-        settings.depth =
-            whole_of("--depth", *options.depth, 1, std::numeric_limits<std::int32_t>::max());
+        settings.depth = whole_of("--depth", *options.depth, 1, PictureLimits::deepest);
     if (!options.shadows.empty())
         settings.shadows = switch_of("--shadows", options.shadows);
     override_antialiasing(options, settings.antialiasing);
@@ -172,9 +178,13 @@ PictureSettings picture_settings(
     if (options.exposure)
         settings.exposure = number_of("--exposure", *options.exposure, 0, 1);
     if (options.frame_margin)
-        settings.frame_margin = number_of("--frame", *options.frame_margin, 0, 0.45);
+        settings.frame_margin = margin_of(*options.frame_margin);
     if (options.pixel_aspect)
-        settings.pixel_aspect = number_of("--aspect", *options.pixel_aspect, 0.01, 100);
+        settings.pixel_aspect = number_of(
+            "--aspect",
+            *options.pixel_aspect,
+            1 / PictureLimits::largest_aspect,
+            PictureLimits::largest_aspect);
     return settings;
 }
 

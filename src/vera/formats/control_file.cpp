@@ -149,12 +149,10 @@ void ControlReader::read_values(Keyword keyword) {
     switch (keyword) {
     case Keyword::raster:
         return read_raster();
-    case Keyword::depth: {
-        constexpr std::uint64_t deepest = 1000;
-        if (const auto depth = words_.take_whole_number("RTDEPTH", 1, deepest))
+    case Keyword::depth:
+        if (const auto depth = words_.take_whole_number("RTDEPTH", 1, PictureLimits::deepest))
             settings_.depth = static_cast<std::uint32_t>(*depth);
         return;
-    }
     case Keyword::exposure:
         return read_exposure();
     case Keyword::ambient:
@@ -185,7 +183,7 @@ void ControlReader::read_values(Keyword keyword) {
 }
 
 void ControlReader::read_raster() {
-    constexpr std::uint64_t largest = 1'000'000;
+    constexpr std::uint64_t largest = PictureLimits::longest_side;
     const auto width = words_.take_whole_number("the picture's width in pixels", 1, largest);
     if (!width)
         return;
@@ -216,7 +214,7 @@ void ControlReader::read_frame() {
     const auto margin = words_.take_number("FRAME, the margin");
     if (!margin)
         return;
-    if (*margin >= 0 && *margin < 0.5) {
+    if (*margin >= 0 && *margin < PictureLimits::widest_margin) {
         settings_.frame_margin = *margin;
         return;
     }
@@ -231,7 +229,7 @@ void ControlReader::read_aspect() {
     const auto aspect = words_.take_number("ASPECT, the width of a pixel by its height");
     if (!aspect)
         return;
-    constexpr double largest = 1000;
+    constexpr double largest = PictureLimits::largest_aspect;
     if (*aspect >= 1 / largest && *aspect <= largest) {
         settings_.pixel_aspect = *aspect;
         return;
@@ -244,8 +242,7 @@ void ControlReader::read_aspect() {
 
 void ControlReader::read_samples() {
     const WordPlace place = words_.place();
-    constexpr std::uint64_t most = 256;
-    const auto samples = words_.take_whole_number("SAMPLES", 2, most);
+    const auto samples = words_.take_whole_number("SAMPLES", 2, PictureLimits::most_samples);
     if (!samples)
         return;
     if ((*samples & (*samples - 1)) == 0) {

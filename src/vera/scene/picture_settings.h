@@ -22,6 +22,15 @@ struct Antialiasing {
     double tolerance = 3.0 / 255; ///< difference of neighbours, in any colour, that refines a pixel
 };
 
+/// What the settings may be, whether a control file or a command line says them.
+struct PictureLimits {
+    static constexpr std::uint32_t longest_side = 1'000'000; ///< of the picture, in pixels
+    static constexpr std::uint32_t deepest = 1000;           ///< levels of the ray tree
+    static constexpr std::uint32_t most_samples = 256;
+    static constexpr double widest_margin = 0.5;   ///< less than that: something must be left
+    static constexpr double largest_aspect = 1000; ///< and the smallest is 1 / 1000
+};
+
 /// What a control file says. The members' values are those without any control file; what a control
 /// file does not name is off or at its default.
 struct PictureSettings {
