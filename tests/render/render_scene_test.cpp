@@ -90,6 +90,17 @@ std::vector<PictureSettings> settings_with_and_without_antialiasing() {
     return {with, without};
 }
 
+/// Whether this build watches its memory, and so needs much of it.
+constexpr bool memory_is_watched() {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    return true;
+#elif defined(__has_feature)
+    return __has_feature(address_sanitizer) || __has_feature(thread_sanitizer);
+#else
+    return false;
+#endif
+}
+
 TEST(RenderScene, GivesTheSameBytesAndCountsForAnyNumberOfThreads) {
     const Room room;
     for (const PictureSettings& settings : settings_with_and_without_antialiasing()) {
@@ -154,6 +165,8 @@ TEST(RenderScene, AgreesWithTheReferenceRenderer) {
 }
 
 TEST(RenderScene, NeedsLittleMemoryBesideThePicture) {
+    if (memory_is_watched())
+        GTEST_SKIP() << "a sanitizer takes more memory than the renderer";
     SceneMaker maker;
     maker.material(luminous({1, 1, 1}));
     maker.sphere({0, 0, -2}, 0.5);
