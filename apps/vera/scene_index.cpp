@@ -3,6 +3,7 @@
 
 #include "vera/accel/brute_force.h"
 #include "vera/accel/grid_tree.h"
+#include "vera/accel/wide_bvh.h"
 
 #include <CLI/CLI.hpp>
 
@@ -10,8 +11,8 @@ namespace vera {
 
 void add_index_options(CLI::App& command, IndexRequest& request) {
     command.add_option("--index", request.kind, "what finds the hits; never changes the picture")
-        ->type_name("auto|grid|brute")
-        ->check(CLI::IsMember({"auto", "grid", "brute"}))
+        ->type_name("auto|bvh|grid|brute")
+        ->check(CLI::IsMember({"auto", "bvh", "grid", "brute"}))
         ->capture_default_str();
 }
 
@@ -22,7 +23,9 @@ std::unique_ptr<RayIndex> scene_index(
     const CancelFlag& cancel) {
     if (request.kind == "brute")
         return make_brute_force(scene);
-    return make_grid_tree(scene, GridSettings{}, progress, &cancel);
+    if (request.kind == "grid")
+        return make_grid_tree(scene, GridSettings{}, progress, &cancel);
+    return make_wide_bvh(scene, progress, &cancel);
 }
 
 } // namespace vera

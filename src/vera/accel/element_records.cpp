@@ -24,16 +24,16 @@ ElementRecord record_of(ElementRecord::Kind kind, Vec3 a, Vec3 b, Vec3 c) {
     return record;
 }
 
-ElementRecord triangle_record(const GeometryGrids& grids, Vec3 a, Vec3 b, Vec3 c) {
+ElementRecord triangle_record(const LocalGeometry& local, Vec3 a, Vec3 b, Vec3 c) {
     return record_of(
         ElementRecord::Kind::triangle,
-        local_point(grids, a),
-        grids.scale * (b - a),
-        grids.scale * (c - a));
+        local_point(local, a),
+        local.scale * (b - a),
+        local.scale * (c - a));
 }
 
 /// Nothing where the corners are not well placed for it: then the box has to do.
-std::optional<ElementRecord> quadrangle_record(const GeometryGrids& grids, const Vec3* corners) {
+std::optional<ElementRecord> quadrangle_record(const LocalGeometry& local, const Vec3* corners) {
     const Vec3 e = corners[1] - corners[0];
     const Vec3 f = corners[3] - corners[0];
     const Vec3 opposite = corners[2] - corners[0];
@@ -44,10 +44,10 @@ std::optional<ElementRecord> quadrangle_record(const GeometryGrids& grids, const
         return std::nullopt;
     const double x = dot(cross(opposite, f), normal) / normal_squared;
     const double y = dot(cross(e, opposite), normal) / normal_squared;
-    const Vec3 off = grids.scale * (opposite - x * e - y * f);
+    const Vec3 off = local.scale * (opposite - x * e - y * f);
     if (!(std::abs(x) < 4) || !(std::abs(y) < 4) || !(max_component(abs(off)) < 0x1p-22))
         return std::nullopt;
-    ElementRecord record = triangle_record(grids, corners[0], corners[1], corners[3]);
+    ElementRecord record = triangle_record(local, corners[0], corners[1], corners[3]);
     record.kind = ElementRecord::Kind::quadrangle;
     record.values[9] = static_cast<float>(x);
     record.values[10] = static_cast<float>(y);
@@ -55,15 +55,15 @@ std::optional<ElementRecord> quadrangle_record(const GeometryGrids& grids, const
 }
 
 ElementRecord
-polygon_record(const GeometryGrids& grids, const Polygon& polygon, const Box3& local_box) {
+polygon_record(const LocalGeometry& local, const Polygon& polygon, const Box3& local_box) {
     if (polygon.shape == Polygon::Shape::convex && polygon.corner_count == 4)
         if (const auto record =
-                quadrangle_record(grids, grids.geometry->corners.data() + polygon.first_corner))
+                quadrangle_record(local, local.geometry->corners.data() + polygon.first_corner))
             return *record;
     return record_of(ElementRecord::Kind::box, local_box.lower, local_box.upper, {});
 }
 
-ElementRecord cylinder_record(const GeometryGrids& grids, const RotationalShape& shape) {
+ElementRecord cylinder_record(const LocalGeometry& local, const RotationalShape& shape) {
     double lowest = shape.start.h;
     double highest = shape.start.h;
     double radius = shape.start.r;
@@ -83,47 +83,47 @@ ElementRecord cylinder_record(const GeometryGrids& grids, const RotationalShape&
     const double half_length = 0.5 * (highest - lowest);
     return record_of(
         ElementRecord::Kind::cylinder,
-        local_point(grids, middle),
+        local_point(local, middle),
         shape.axis,
-        enlarged * grids.scale * Vec3{radius, half_length, 0});
+        enlarged * local.scale * Vec3{radius, half_length, 0});
 }
 
 } // namespace
 
-ElementRecord element_record(const GeometryGrids& grids, Element element, const Box3& local_box) {
-    const Geometry& geometry = *grids.geometry;
+ElementRecord element_record(const LocalGeometry& local, Element element, const Box3& local_box) {
+    const Geometry& geometry = *local.geometry;
     const Item& item = geometry.items[element.item];
     switch (item.kind) {
     case ItemKind::sphere: {
         const Sphere& sphere = geometry.spheres[item.index];
         return record_of(
             ElementRecord::Kind::sphere,
-            local_point(grids, sphere.center),
-            {enlarged * grids.scale * sphere.radius, 0, 0},
+            local_point(local, sphere.center),
+            {enlarged * local.scale * sphere.radius, 0, 0},
             {});
     }
     case ItemKind::triangle: {
         const auto& corners = geometry.triangles[item.index].corners;
-        return triangle_record(grids, corners[0], corners[1], corners[2]);
+        return triangle_record(local, corners[0], corners[1], corners[2]);
     }
     case ItemKind::patch: {
         const auto& corners = geometry.patches[item.index].corners;
-        return triangle_record(grids, corners[0], corners[1], corners[2]);
+        return triangle_record(local, corners[0], corners[1], corners[2]);
     }
     case ItemKind::mesh: {
         const Mesh& mesh = geometry.meshes[item.index];
         const std::uint32_t* corners =
             mesh.position_indices.data() + std::size_t{3} * element.triangle;
         return triangle_record(
-            grids,
+            local,
             mesh.positions[corners[0]],
             mesh.positions[corners[1]],
             mesh.positions[corners[2]]);
     }
     case ItemKind::rotational_shape:
-        return cylinder_record(grids, geometry.rotational_shapes[item.index]);
+        return cylinder_record(local, geometry.rotational_shapes[item.index]);
     case ItemKind::polygon:
-        return polygon_record(grids, geometry.polygons[item.index], local_box);
+        return polygon_record(local, geometry.polygons[item.index], local_box);
     case ItemKind::subscene_call:
         return record_of(ElementRecord::Kind::call, local_box.lower, local_box.upper, {});
     }

@@ -1,11 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "vera/accel/grid_structures.h"
+#include "vera/accel/local_geometry.h"
+
+#include <array>
+#include <cstdint>
 
 namespace vera::detail {
 
+/// How an element is met by a cheap test in single precision that never misses a ray which meets
+/// the element, in local coordinates.
+struct ElementRecord {
+    enum class Kind : std::uint32_t {
+        sphere,     ///< center, radius
+        triangle,   ///< corner, edge e to the second corner, edge f to the third
+        quadrangle, ///< corner, edges e and f to its neighbours, x and y: corner + x e + y f is the
+                    ///< opposite corner
+        box,        ///< lower corner, upper corner
+        cylinder,   ///< center, axis (unit), radius, half its length
+        call        ///< of a subscene: as box
+    };
+
+    std::array<float, 11> values = {};
+    Kind kind = Kind::box;
+};
+
 /// The record of an element that lies within the box; both in local coordinates.
-ElementRecord element_record(const GeometryGrids& grids, Element element, const Box3& local_box);
+ElementRecord element_record(const LocalGeometry& local, Element element, const Box3& local_box);
 
 } // namespace vera::detail

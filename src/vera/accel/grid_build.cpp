@@ -389,61 +389,24 @@ private:
     const CancelFlag* cancel_;
 };
 
-/// Chooses the local coordinates of a geometry with these bounds.
-void place_locally(GeometryGrids& grids) {
-    grids.center = center(grids.bounds);
-    int exponent = 0;
-    const double largest = max_component(0.5 * grids.bounds.upper - 0.5 * grids.bounds.lower);
-    if (largest > 0)
-        std::frexp(largest, &exponent);
-    exponent = std::max(exponent, -1000); // the scale must not overflow
-    grids.scale = std::ldexp(1.0, -exponent);
-    grids.local_bounds = {
-        local_point(grids, grids.bounds.lower), local_point(grids, grids.bounds.upper)};
-    grids.coordinate_size = max_component(max(abs(grids.bounds.lower), abs(grids.bounds.upper)));
-    for (const RotationalShape& shape : grids.geometry->rotational_shapes)
-        grids.coordinate_size = std::max(grids.coordinate_size, max_component(abs(shape.base)));
-}
-
-/// Bounds of an element in local coordinates.
-Box3 local_box(
-    const GeometryGrids& grids, Element element, const std::vector<Box3>& subscene_bounds) {
-    const Geometry& geometry = *grids.geometry;
-    const Item& item = geometry.items[element.item];
-    Box3 box;
-    if (item.kind == ItemKind::subscene_call) {
-        const SubsceneCall& call = geometry.calls[item.index];
-        box = transformed_box(
-            call.to_parent, subscene_bounds[static_cast<std::size_t>(call.subscene)]);
-    } else {
-        box = bounds(geometry, element);
-    }
-    if (box.empty())
-        return {};
-    return {local_point(grids, box.lower), local_point(grids, box.upper)};
-}
-
 } // namespace
 
 std::size_t forecast_bytes(
     const Geometry& geometry,
     const std::vector<Box3>& subscene_bounds,
     const GridSettings& settings) {
-    GeometryGrids grids;
-    grids.geometry = &geometry;
-    grids.bounds = bounds(geometry, subscene_bounds);
-    if (grids.bounds.empty())
+    const LocalGeometry local = local_geometry(geometry, subscene_bounds);
+    if (local.bounds.empty())
         return 0;
-    place_locally(grids);
     const auto count = static_cast<double>(geometry.element_count);
-    const Grid grid = Builder::grid_over(grids.local_bounds, settings.density * count);
+    const Grid grid = Builder::grid_over(local.local_bounds, settings.density * count);
     constexpr std::uint64_t sample_size = 256;
     const std::uint64_t step = std::max<std::uint64_t>(geometry.element_count / sample_size, 1);
-    CellShape shape(geometry, grids.center, grids.scale);
+    CellShape shape(geometry, local.center, local.scale);
     double sampled = 0;
     double touched = 0;
     for (std::uint64_t i = step / 2; i < geometry.element_count; i += step, ++sampled) {
-        const Box3 box = local_box(grids, element_at(geometry, i), subscene_bounds);
+        const Box3 box = local_box(local, element_at(geometry, i), subscene_bounds);
         if (!box.empty())
             Builder::for_each_cell_of(
                 geometry, static_cast<std::uint32_t>(i), box, grid, shape, [&](std::size_t) {
@@ -469,11 +432,9 @@ GeometryGrids build_geometry_grids(
     const GridSettings& settings,
     const CancelFlag* cancel) {
     GeometryGrids grids;
-    grids.geometry = &geometry;
-    grids.bounds = bounds(geometry, subscene_bounds);
+    static_cast<LocalGeometry&>(grids) = local_geometry(geometry, subscene_bounds);
     if (grids.bounds.empty())
         return grids;
-    place_locally(grids);
 
     const auto count = static_cast<std::size_t>(geometry.element_count);
     std::vector<Box3> boxes(count);

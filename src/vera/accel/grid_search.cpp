@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "vera/accel/grid_structures.h"
 #include "vera/accel/packet_query.h"
 
 #include <algorithm>
@@ -9,6 +10,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "vera/accel/grid_search.cpp"
 #include <hwy/foreach_target.h>
+#include "vera/accel/element_tests-inl.h"
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
@@ -39,16 +41,13 @@ HWY_INLINE LaneMask bits(Mask mask, std::size_t lane) {
     return (all & ((LaneMask{1} << hn::Lanes(Tag<Width>())) - 1)) << lane;
 }
 
-/// The rays of some lanes, in registers.
 template <std::size_t Width>
-struct Rays {
-    Vec<Width> origin[3];
-    Vec<Width> direction[3];
-    Vec<Width> limit;
-};
+HWY_INLINE Vec<Width> all(float value) {
+    return hn::Set(Tag<Width>(), value);
+}
 
 template <std::size_t Width>
-HWY_INLINE Rays<Width> rays_at(const Frame& frame, std::size_t lane) {
+HWY_INLINE TestedRays<Tag<Width>> rays_at(const Frame& frame, std::size_t lane) {
     return {
         {row<Width>(frame.origin[0], lane),
          row<Width>(frame.origin[1], lane),
@@ -56,120 +55,15 @@ HWY_INLINE Rays<Width> rays_at(const Frame& frame, std::size_t lane) {
         {row<Width>(frame.direction[0], lane),
          row<Width>(frame.direction[1], lane),
          row<Width>(frame.direction[2], lane)},
-        row<Width>(frame.limit, lane)};
+        {row<Width>(frame.inverse[0], lane),
+         row<Width>(frame.inverse[1], lane),
+         row<Width>(frame.inverse[2], lane)},
+        row<Width>(frame.limit, lane),
+        frame.slack};
 }
 
 template <std::size_t Width>
-HWY_INLINE Vec<Width> all(float value) {
-    return hn::Set(Tag<Width>(), value);
-}
-
-template <typename V>
-HWY_INLINE V dot3(const V (&a)[3], const V (&b)[3]) {
-    return hn::Add(hn::Add(hn::Mul(a[0], b[0]), hn::Mul(a[1], b[1])), hn::Mul(a[2], b[2]));
-}
-
-template <typename V>
-HWY_INLINE void cross3(const V (&a)[3], const V (&b)[3], V (&result)[3]) {
-    result[0] = hn::Sub(hn::Mul(a[1], b[2]), hn::Mul(a[2], b[1]));
-    result[1] = hn::Sub(hn::Mul(a[2], b[0]), hn::Mul(a[0], b[2]));
-    result[2] = hn::Sub(hn::Mul(a[0], b[1]), hn::Mul(a[1], b[0]));
-}
-
-// The cheap tests. Each returns all lanes whose rays, moved by up to frame.slack, may meet the
-// element before their limits.
-
-/// Squares of sums are rounded by a few units of 2^-24.
-constexpr float up = 1 + 0x1p-20F;
-
-template <std::size_t Width>
-HWY_INLINE LaneMask
-meets_ball(const Rays<Width>& rays, const float* center, float radius, std::size_t lane) {
-    Vec<Width> to_center[3];
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        to_center[axis] = hn::Sub(all<Width>(center[axis]), rays.origin[axis]);
-    const auto closest = dot3(to_center, rays.direction);
-    Vec<Width> offset[3];
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        offset[axis] = hn::Sub(to_center[axis], hn::Mul(closest, rays.direction[axis]));
-    const auto distance_squared = dot3(offset, offset);
-    // The part of the ray from 0 to its limit comes as near as it does at the t nearest to closest.
-    const auto zero = hn::Zero(Tag<Width>());
-    const auto t = hn::Max(zero, hn::Min(rays.limit, closest));
-    const auto beyond = hn::Sub(closest, t);
-    const auto sum = hn::Add(distance_squared, hn::Mul(beyond, beyond));
-    const auto near = hn::Le(sum, all<Width>(radius * radius * up));
-    return bits<Width>(hn::And(near, hn::Ge(rays.limit, zero)), lane);
-}
-
-/// A triangle, or where fourth says where its opposite corner lies, a quadrangle.
-template <std::size_t Width>
-HWY_INLINE LaneMask meets_face(
-    const Rays<Width>& rays,
-    const float* values,
-    const float* fourth,
-    float slack,
-    std::size_t lane) {
-    const float* a = values;
-    const float* e = values + 3;
-    const float* f = values + 6;
-    float largest = 0;
-    for (std::size_t i = 3; i < 9; ++i)
-        largest = std::max(largest, std::abs(values[i]));
-    // Moving the ray by slack changes a volume with an edge by at most slack times the edge's
-    // length, which is at most sqrt(3) times its largest component; the third is a sum of two.
-    float volume_slack = 4 * slack * largest;
-    const float depth_slack = 8 * slack * largest * largest;
-
-    const Vec<Width> normal[3] = {
-        all<Width>(e[1] * f[2] - e[2] * f[1]),
-        all<Width>(e[2] * f[0] - e[0] * f[2]),
-        all<Width>(e[0] * f[1] - e[1] * f[0])};
-    Vec<Width> to_corner[3];
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        to_corner[axis] = hn::Sub(all<Width>(a[axis]), rays.origin[axis]);
-    Vec<Width> moment[3];
-    cross3(to_corner, rays.direction, moment);
-    const Vec<Width> edge_e[3] = {all<Width>(e[0]), all<Width>(e[1]), all<Width>(e[2])};
-    const Vec<Width> edge_f[3] = {all<Width>(f[0]), all<Width>(f[1]), all<Width>(f[2])};
-    // The ray meets the plane at corner + (u e + v f) / speed, where t is depth / speed.
-    const auto speed = dot3(normal, rays.direction);
-    const auto depth = dot3(normal, to_corner);
-    const auto u = dot3(moment, edge_f);
-    const auto v = hn::Neg(dot3(moment, edge_e));
-
-    auto lowest = hn::Min(u, v);
-    auto highest = hn::Max(u, v);
-    if (fourth == nullptr) {
-        const auto w = hn::Sub(hn::Sub(speed, u), v);
-        lowest = hn::Min(lowest, w);
-        highest = hn::Max(highest, w);
-    } else {
-        // Left of the sides from (1, 0) to the fourth corner and from there to (0, 1).
-        const float x = fourth[0];
-        const float y = fourth[1];
-        volume_slack *= 2 * (1 + std::abs(x) + std::abs(y));
-        const auto side =
-            hn::Sub(hn::Mul(all<Width>(x - 1), v), hn::Mul(all<Width>(y), hn::Sub(u, speed)));
-        const auto other =
-            hn::Sub(hn::Mul(all<Width>(y - 1), u), hn::Mul(all<Width>(x), hn::Sub(v, speed)));
-        lowest = hn::Min(lowest, hn::Min(side, other));
-        highest = hn::Max(highest, hn::Max(side, other));
-    }
-    const auto met = hn::Or(
-        hn::Ge(lowest, all<Width>(-volume_slack)), hn::Le(highest, all<Width>(volume_slack)));
-    const auto size = hn::Abs(speed);
-    const auto forward = hn::CopySignToAbs(all<Width>(1), speed);
-    const auto t_size = hn::Mul(depth, forward);
-    const auto deep = all<Width>(depth_slack);
-    const auto behind_start =
-        hn::Ge(hn::Add(t_size, deep), hn::Neg(hn::Mul(all<Width>(slack), size)));
-    const auto before_limit = hn::Le(hn::Sub(t_size, deep), hn::Mul(rays.limit, size));
-    return bits<Width>(hn::And(met, hn::And(behind_start, before_limit)), lane);
-}
-
-template <std::size_t Width>
-HWY_INLINE LaneMask meets_box(
+HWY_INLINE LaneMask meets_grid(
     const Frame& frame,
     const float* lower,
     const float* upper,
@@ -188,56 +82,20 @@ HWY_INLINE LaneMask meets_box(
         near = hn::Max(near, hn::Min(at_lower, at_upper));
         far = hn::Min(far, hn::Max(at_lower, at_upper));
     }
-    if (near_row != nullptr) {
-        hn::StoreU(near, d, near_row + lane);
-        hn::StoreU(far, d, far_row + lane);
-    }
+    hn::StoreU(near, d, near_row + lane);
+    hn::StoreU(far, d, far_row + lane);
     return bits<Width>(hn::Le(near, hn::Add(far, all<Width>(slack))), lane);
 }
 
-template <std::size_t Width>
-HWY_INLINE LaneMask
-meets_cylinder(const Rays<Width>& rays, const float* values, float slack, std::size_t lane) {
-    const float radius = values[6];
-    const float half = values[7];
-    const LaneMask round = meets_ball<Width>(
-        rays, values, std::sqrt(radius * radius + half * half) * up + 2 * slack, lane);
-    if (round == 0)
-        return 0;
-    // The distance of the ray's line from the axis is |from_axis . across| / |across|.
-    Vec<Width> to_center[3];
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        to_center[axis] = hn::Sub(all<Width>(values[axis]), rays.origin[axis]);
-    const Vec<Width> axis_direction[3] = {
-        all<Width>(values[3]), all<Width>(values[4]), all<Width>(values[5])};
-    Vec<Width> across[3];
-    cross3(rays.direction, axis_direction, across);
-    const auto size = hn::Sqrt(dot3(across, across));
-    const auto apart = hn::Abs(dot3(to_center, across));
-    const auto reach =
-        hn::Add(hn::Mul(size, all<Width>((radius + 2 * slack) * up)), all<Width>(4 * slack));
-    return round & bits<Width>(hn::Le(apart, reach), lane);
-}
-
+/// The part of the lanes from this one on whose rays may meet the element.
 template <std::size_t Width>
 HWY_INLINE LaneMask
 may_meet_part(const Frame& frame, const ElementRecord& record, std::size_t lane) {
-    const float slack = frame.slack;
-    const float* values = record.values.data();
-    switch (record.kind) {
-    case ElementRecord::Kind::sphere:
-        return meets_ball<Width>(rays_at<Width>(frame, lane), values, values[3] + 2 * slack, lane);
-    case ElementRecord::Kind::triangle:
-        return meets_face<Width>(rays_at<Width>(frame, lane), values, nullptr, slack, lane);
-    case ElementRecord::Kind::quadrangle:
-        return meets_face<Width>(rays_at<Width>(frame, lane), values, values + 9, slack, lane);
-    case ElementRecord::Kind::cylinder:
-        return meets_cylinder<Width>(rays_at<Width>(frame, lane), values, slack, lane);
-    case ElementRecord::Kind::box:
-    case ElementRecord::Kind::call:
-        return meets_box<Width>(frame, values, values + 3, 2 * slack, lane, nullptr, nullptr);
-    }
-    return ~LaneMask{0};
+    Vec<Width> values[11];
+    for (std::size_t i = 0; i < 11; ++i)
+        values[i] = all<Width>(record.values[i]);
+    return bits<Width>(
+        may_meet(Tag<Width>(), rays_at<Width>(frame, lane), record.kind, values), lane);
 }
 
 template <std::size_t Width>
@@ -246,6 +104,10 @@ HWY_INLINE LaneMask may_meet(const Frame& frame, const ElementRecord& record, st
     for (std::size_t i = 0; i < Width; i += hn::Lanes(Tag<Width>()))
         result |= may_meet_part<Width>(frame, record, first + i);
     return result;
+}
+
+inline const GeometryGrids& grids_of(const Frame& frame) {
+    return static_cast<const GeometryGrids&>(*frame.local);
 }
 
 /// A grid's cells seen along the axis that a packet advances on, slice by slice.
@@ -292,7 +154,7 @@ void visit_call(
 template <std::size_t Width>
 void visit_list(
     PacketQuery& query, Frame& frame, std::size_t first, LaneMask lanes, std::uint32_t place) {
-    const GeometryGrids& grids = *frame.grids;
+    const GeometryGrids& grids = grids_of(frame);
     const std::uint32_t* list = grids.lists.data() + place;
     const std::uint32_t count = *list++;
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -531,7 +393,7 @@ void follow(
     std::int32_t last = slice_at(way.leave + sign * way.margin, along_count);
     MovingWindow window = first_window(
         way, std::max(advance.forward ? slice + 1 - way.enter : way.enter - slice, 0.0));
-    const Cell* cells = frame.grids->cells.data() + grid.first_cell
+    const Cell* cells = grids_of(frame).cells.data() + grid.first_cell
         + static_cast<std::size_t>(slice) * strides[advance.axis];
     const std::ptrdiff_t slice_stride = step * static_cast<std::ptrdiff_t>(strides[advance.axis]);
     std::uint32_t changes = query.changes;
@@ -587,7 +449,7 @@ void visit_in_parts(
 template <std::size_t Width>
 void visit_grid(
     PacketQuery& query, Frame& frame, std::size_t first, LaneMask lanes, std::uint32_t number) {
-    const Grid& grid = frame.grids->grids[number];
+    const Grid& grid = grids_of(frame).grids[number];
     lanes &= query.active;
     if (Width > 1 && std::popcount(lanes) == 1)
         return visit_grid<1>(
@@ -604,7 +466,7 @@ void visit_grid(
         static_cast<float>(grid.box.upper.z)};
     LaneMask touching = 0;
     for (std::size_t i = 0; i < Width; i += hn::Lanes(Tag<Width>()))
-        touching |= meets_box<Width>(frame, lower, upper, 2 * frame.slack, first + i, near, far);
+        touching |= meets_grid<Width>(frame, lower, upper, 2 * frame.slack, first + i, near, far);
     lanes &= touching;
     if (lanes == 0)
         return;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "vera/accel/element_records.h"
+#include "vera/accel/local_geometry.h"
 #include "vera/math/box3.h"
 #include "vera/math/vec3.h"
-#include "vera/scene/geometry.h"
 
 #include <array>
 #include <cstddef>
@@ -39,44 +40,13 @@ struct Grid {
     std::size_t first_cell = 0;
 };
 
-/// How an element is met by a cheap test in single precision that never misses a ray which meets
-/// the element, in local coordinates.
-struct ElementRecord {
-    enum class Kind : std::uint32_t {
-        sphere,     ///< center, radius
-        triangle,   ///< corner, edge e to the second corner, edge f to the third
-        quadrangle, ///< corner, edges e and f to its neighbours, x and y: corner + x e + y f is the
-                    ///< opposite corner
-        box,        ///< lower corner, upper corner
-        cylinder,   ///< center, axis (unit), radius, half its length
-        call        ///< of a subscene: as box
-    };
-
-    std::array<float, 11> values = {};
-    Kind kind = Kind::box;
-};
-
 /// The grids of the main scene or of a subscene.
-///
-/// Local coordinates: `center` moved to 0 and all multiplied by `scale`, a power of two that makes
-/// the bounds fit into [-1, 1]. So single precision is good for what only prunes, and a scene and
-/// its copy in another unit of length behave alike.
-struct GeometryGrids {
-    const Geometry* geometry = nullptr;
-    Box3 bounds; ///< of what rays can meet, in the geometry's own coordinates; empty where nothing
-    Vec3 center;
-    double scale = 1;
-    Box3 local_bounds;
-    double coordinate_size = 0; ///< the largest that says where anything lies, in scene units
-    std::vector<Grid> grids;    ///< the first is that of the whole geometry; none where it is empty
+struct GeometryGrids : LocalGeometry {
+    std::vector<Grid> grids; ///< the first is that of the whole geometry; none where it is empty
     std::vector<Cell> cells;
     std::vector<std::uint32_t> lists;
     std::vector<ElementRecord> records; ///< of every element
     std::size_t levels = 0;
 };
-
-inline Vec3 local_point(const GeometryGrids& grids, Vec3 point) {
-    return grids.scale * (point - grids.center);
-}
 
 } // namespace vera::detail

@@ -58,8 +58,8 @@ Frame& frame_at(PacketQuery& query, std::size_t depth) {
 }
 
 void start_frame(
-    PacketQuery& query, Frame& frame, const GeometryGrids& grids, std::uint64_t first_primitive) {
-    frame.grids = &grids;
+    PacketQuery& query, Frame& frame, const LocalGeometry& local, std::uint64_t first_primitive) {
+    frame.local = &local;
     frame.prepared_lanes = 0;
     frame.visit = query.mailbox.next_visit();
     frame.first_primitive = first_primitive;
@@ -67,7 +67,7 @@ void start_frame(
 
 void set_start_element(const PacketQuery& query, Frame& frame, std::size_t lane) {
     const std::uint64_t start = query.rays[lane].start.primitive - frame.first_primitive;
-    const Geometry& geometry = *frame.grids->geometry;
+    const Geometry& geometry = *frame.local->geometry;
     frame.start_element[lane] = start >= geometry.primitive_count ? no_element
         : geometry.calls.empty() ? static_cast<std::uint32_t>(start)
                                  : element_of(geometry, start);
@@ -149,11 +149,11 @@ void Mailbox::grow() {
 }
 
 LaneMask enter_scene(PacketQuery& query) {
-    const GeometryGrids& grids = query.geometries->front();
-    if (grids.grids.empty())
+    const LocalGeometry& local = *query.geometries.front();
+    if (local.bounds.empty())
         return 0;
     Frame& frame = frame_at(query, 0);
-    start_frame(query, frame, grids, 0);
+    start_frame(query, frame, local, 0);
     frame.depth = 0;
     frame.material = inherited_material;
     for (std::size_t lane = 0; lane < query.rays.size(); ++lane) {
@@ -170,7 +170,7 @@ LaneMask enter_scene(PacketQuery& query) {
 }
 
 LaneMask enter_call(PacketQuery& query, Frame& frame, std::uint32_t element, LaneMask lanes) {
-    const Geometry& geometry = *frame.grids->geometry;
+    const Geometry& geometry = *frame.local->geometry;
     const Element place = element_at(geometry, element);
     const Item& item = geometry.items[place.item];
     const SubsceneCall& call = geometry.calls[item.index];
@@ -178,7 +178,7 @@ LaneMask enter_call(PacketQuery& query, Frame& frame, std::uint32_t element, Lan
     start_frame(
         query,
         inner,
-        (*query.geometries)[static_cast<std::size_t>(call.subscene) + 1],
+        *query.geometries[static_cast<std::size_t>(call.subscene) + 1],
         frame.first_primitive + primitive_number(geometry, place));
     inner.depth = frame.depth + 1;
     inner.material = resolved(item.material, frame.material);
@@ -187,7 +187,7 @@ LaneMask enter_call(PacketQuery& query, Frame& frame, std::uint32_t element, Lan
 }
 
 void search_plainly(PacketQuery& query, Frame& frame, std::uint32_t element, LaneMask lanes) {
-    const Geometry& geometry = *frame.grids->geometry;
+    const Geometry& geometry = *frame.local->geometry;
     const Element place = element_at(geometry, element);
     const Item& item = geometry.items[place.item];
     const SubsceneCall& call = geometry.calls[item.index];
@@ -212,7 +212,7 @@ void search_plainly(PacketQuery& query, Frame& frame, std::uint32_t element, Lan
 }
 
 void test_exactly(PacketQuery& query, Frame& frame, std::uint32_t element, LaneMask lanes) {
-    const Geometry& geometry = *frame.grids->geometry;
+    const Geometry& geometry = *frame.local->geometry;
     const Element place = element_at(geometry, element);
     const MaterialId material = resolved(geometry.items[place.item].material, frame.material);
     const std::uint64_t primitive = frame.first_primitive

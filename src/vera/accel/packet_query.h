@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "vera/accel/grid_structures.h"
+#include "vera/accel/local_geometry.h"
 #include "vera/accel/ray_index.h"
 #include "vera/accel/searches.h"
 #include "vera/math/transform.h"
@@ -59,7 +59,7 @@ struct alignas(64) Frame {
     std::array<std::uint32_t, packet_size> start_element;
     float slack = 0;
     LaneMask prepared_lanes = 0; ///< whose prepared rays were made
-    const GeometryGrids* grids = nullptr;
+    const LocalGeometry* local = nullptr;
     std::uint32_t visit = 0; ///< tells this visit from all others in the mailbox
     std::uint32_t depth = 0;
     std::uint64_t first_primitive = 0;
@@ -82,6 +82,9 @@ LaneMask place_rays(Frame& frame, LaneMask lanes, const RayRows::Row& limit);
 
 /// The lanes' rays, carried by the map as transformed_ray() does, to the bit.
 void transform_rays(const Affine3& map, const RayRows& rays, RayRows& result);
+
+/// So few rays of a packet are looked at one by one.
+constexpr int few_lanes = 2;
 
 /// Remembers which rays were tested against which element, so that none is twice.
 class Mailbox {
@@ -132,6 +135,26 @@ private:
     std::uint32_t last_visit_ = 0;
 };
 
+/// A child of a node of a tree of boxes: see WideNode.
+struct TreeChild {
+    std::uint32_t first = 0;
+    std::uint8_t kind = 0;
+    std::uint8_t count = 0;
+};
+
+/// A child that waits until a ray comes to it, and where that enters its box.
+struct WaitingAlone {
+    TreeChild child;
+    float near = 0;
+};
+
+/// The same for some lanes of a packet.
+struct WaitingTogether {
+    TreeChild child;
+    LaneMask lanes = 0;
+    Frame::Row near;
+};
+
 /// What is wanted of the crossings.
 enum class Purpose : std::uint8_t {
     nearest,      ///< the first face
@@ -143,7 +166,8 @@ enum class Purpose : std::uint8_t {
 /// A packet of rays, asked about all at once. Holds its memory from one packet to the next.
 struct PacketQuery {
     const Scene* scene = nullptr;
-    const std::vector<GeometryGrids>* geometries = nullptr; ///< the main scene, then the subscenes
+    /// Of the main scene, then of the subscenes: what the index made of them.
+    std::span<const LocalGeometry* const> geometries;
     Purpose purpose = Purpose::nearest;
     std::span<const QueryRay> rays;
     LaneMask active = 0;       ///< lanes that have no final answer
@@ -154,6 +178,8 @@ struct PacketQuery {
     std::array<TransmittanceSearch, packet_size> transmittance;
     QueryCounts counts;
     Mailbox mailbox;
+    std::vector<WaitingAlone> waiting_alone;
+    std::vector<WaitingTogether> waiting_together;
     std::deque<Frame> frames; ///< by depth of subscenes
 };
 
@@ -178,7 +204,10 @@ void test_exactly(PacketQuery& query, Frame& frame, std::uint32_t element, LaneM
 /// Takes over the query's limits, which may have changed in a subscene.
 void refresh_limits(const PacketQuery& query, Frame& frame, LaneMask lanes);
 
-/// Searches the whole scene for the packet.
+/// Searches the whole scene, of which the query's geometries are GeometryGrids.
 void search_grids(PacketQuery& query);
+
+/// Searches the whole scene, of which the query's geometries are GeometryTrees.
+void search_trees(PacketQuery& query);
 
 } // namespace vera::detail

@@ -49,15 +49,15 @@ struct Placed {
 /// The part of a frame from a lane on that fits into a register.
 HWY_INLINE void
 place_part(Frame& frame, const RayRows::Row& limit, std::size_t lane, Placed& placed) {
-    const GeometryGrids& grids = *frame.grids;
+    const LocalGeometry& local = *frame.local;
     const Doubles d;
-    const auto scale = all(grids.scale);
+    const auto scale = all(local.scale);
     Vec origin[3];
     Vec given[3];
     auto origin_size = hn::Zero(d);
     for (std::size_t axis = 0; axis < 3; ++axis) {
         origin[axis] =
-            hn::Mul(scale, hn::Sub(row(frame.rays.origin[axis], lane), all(grids.center[axis])));
+            hn::Mul(scale, hn::Sub(row(frame.rays.origin[axis], lane), all(local.center[axis])));
         given[axis] = row(frame.rays.direction[axis], lane);
         origin_size = hn::Max(origin_size, hn::Abs(origin[axis]));
     }
@@ -68,10 +68,10 @@ place_part(Frame& frame, const RayRows::Row& limit, std::size_t lane, Placed& pl
     const auto per_norm = hn::Div(all(1), norm);
     const auto speed = hn::Mul(norm, scale);
     const auto slack = hn::Add(
-        all(least_slack + 0x1p-44 * grids.scale * grids.coordinate_size),
+        all(least_slack + 0x1p-44 * local.scale * local.coordinate_size),
         hn::Add(
             hn::Mul(all(0x1p-44), origin_size),
-            hn::Mul(all(2 * grids.scale), row(frame.rays.origin_error, lane))));
+            hn::Mul(all(2 * local.scale), row(frame.rays.origin_error, lane))));
     auto near = hn::Mul(row(frame.rays.t_min, lane), speed);
     auto far = hn::Mul(hn::Min(row(frame.rays.t_max, lane), row(limit, lane)), speed);
     Vec direction[3];
@@ -80,9 +80,9 @@ place_part(Frame& frame, const RayRows::Row& limit, std::size_t lane, Placed& pl
         const auto size = hn::Max(hn::Abs(direction[axis]), all(1e-20));
         const auto inverse = hn::Div(all(1), hn::CopySign(size, direction[axis]));
         const auto lower =
-            hn::Sub(hn::Sub(all(grids.local_bounds.lower[axis]), slack), origin[axis]);
+            hn::Sub(hn::Sub(all(local.local_bounds.lower[axis]), slack), origin[axis]);
         const auto upper =
-            hn::Sub(hn::Add(all(grids.local_bounds.upper[axis]), slack), origin[axis]);
+            hn::Sub(hn::Add(all(local.local_bounds.upper[axis]), slack), origin[axis]);
         const auto at_lower = hn::Mul(lower, inverse);
         const auto at_upper = hn::Mul(upper, inverse);
         near = hn::Max(near, hn::Min(at_lower, at_upper));

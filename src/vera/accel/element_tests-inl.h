@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: Apache-2.0
+// The cheap tests of rays with elements, in single precision: compiled once for each instruction
+// set, and so included once for each, by the searches alone.
+//
+// The lanes of a vector are rays that are tested against one element, or elements that one ray is
+// tested against: what is one has its numbers in all lanes. Each test returns the lanes in which
+// the ray, moved by up to slack, may meet the element before its limit.
+
+#if defined(VERA_ACCEL_ELEMENT_TESTS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef VERA_ACCEL_ELEMENT_TESTS_INL_H_
+#undef VERA_ACCEL_ELEMENT_TESTS_INL_H_
+#else
+#define VERA_ACCEL_ELEMENT_TESTS_INL_H_
+#endif
+
+#include "vera/accel/element_records.h"
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+
+namespace vera::detail {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+template <typename V>
+HWY_INLINE V dot3(const V (&a)[3], const V (&b)[3]) {
+    return hn::Add(hn::Add(hn::Mul(a[0], b[0]), hn::Mul(a[1], b[1])), hn::Mul(a[2], b[2]));
+}
+
+template <typename V>
+HWY_INLINE void cross3(const V (&a)[3], const V (&b)[3], V (&result)[3]) {
+    result[0] = hn::Sub(hn::Mul(a[1], b[2]), hn::Mul(a[2], b[1]));
+    result[1] = hn::Sub(hn::Mul(a[2], b[0]), hn::Mul(a[0], b[2]));
+    result[2] = hn::Sub(hn::Mul(a[0], b[1]), hn::Mul(a[1], b[0]));
+}
+
+/// Rays in local coordinates: see Frame.
+template <typename D>
+struct TestedRays {
+    using V = hn::Vec<D>;
+
+    V origin[3];
+    V direction[3];
+    V inverse[3];
+    V limit;
+    float slack;
+};
+
+/// Squares of sums are rounded by a few units of 2^-24.
+constexpr float up = 1 + 0x1p-20F;
+
+template <typename D>
+HWY_INLINE hn::Mask<D>
+meets_ball(D d, const TestedRays<D>& rays, const hn::Vec<D>* center, hn::Vec<D> radius) {
+    using V = hn::Vec<D>;
+    const V to_center[3] = {
+        hn::Sub(center[0], rays.origin[0]),
+        hn::Sub(center[1], rays.origin[1]),
+        hn::Sub(center[2], rays.origin[2])};
+    const V closest = dot3(to_center, rays.direction);
+    const V offset[3] = {
+        hn::Sub(to_center[0], hn::Mul(closest, rays.direction[0])),
+        hn::Sub(to_center[1], hn::Mul(closest, rays.direction[1])),
+        hn::Sub(to_center[2], hn::Mul(closest, rays.direction[2]))};
+    const V distance_squared = dot3(offset, offset);
+    // The part of the ray from 0 to its limit comes as near as it does at the t nearest to closest.
+    const V zero = hn::Zero(d);
+    const V t = hn::Max(zero, hn::Min(rays.limit, closest));
+    const V beyond = hn::Sub(closest, t);
+    const V sum = hn::Add(distance_squared, hn::Mul(beyond, beyond));
+    const V reach = hn::Mul(hn::Mul(radius, radius), hn::Set(d, up));
+    return hn::And(hn::Le(sum, reach), hn::Ge(rays.limit, zero));
+}
+
+/// Where rays meet the plane of a face: at corner + (u e + v f) / speed, and there t is
+/// depth / speed.
+template <typename V>
+struct PlanePlace {
+    V u;
+    V v;
+    V speed;
+    V depth;
+    V largest; ///< of the components of e and f, without their signs
+};
+
+template <typename D>
+HWY_INLINE PlanePlace<hn::Vec<D>>
+plane_place(D, const TestedRays<D>& rays, const hn::Vec<D>* values) {
+    using V = hn::Vec<D>;
+    const V e[3] = {values[3], values[4], values[5]};
+    const V f[3] = {values[6], values[7], values[8]};
+    V normal[3];
+    cross3(e, f, normal);
+    const V to_corner[3] = {
+        hn::Sub(values[0], rays.origin[0]),
+        hn::Sub(values[1], rays.origin[1]),
+        hn::Sub(values[2], rays.origin[2])};
+    V moment[3];
+    cross3(to_corner, rays.direction, moment);
+    PlanePlace<V> place;
+    place.speed = dot3(normal, rays.direction);
+    place.depth = dot3(normal, to_corner);
+    place.u = dot3(moment, f);
+    place.v = hn::Neg(dot3(moment, e));
+    const V largest_e = hn::Max(hn::Abs(e[0]), hn::Max(hn::Abs(e[1]), hn::Abs(e[2])));
+    const V largest_f = hn::Max(hn::Abs(f[0]), hn::Max(hn::Abs(f[1]), hn::Abs(f[2])));
+    place.largest = hn::Max(largest_e, largest_f);
+    return place;
+}
+
+/// Whether the numbers between lowest and highest, each off by up to error, may have one sign, and
+/// the plane is met between 0 and the limit.
+template <typename D>
+HWY_INLINE hn::Mask<D> meets_there(
+    D d,
+    const TestedRays<D>& rays,
+    const PlanePlace<hn::Vec<D>>& place,
+    hn::Vec<D> lowest,
+    hn::Vec<D> highest,
+    hn::Vec<D> error) {
+    using V = hn::Vec<D>;
+    const auto met = hn::Or(hn::Ge(lowest, hn::Neg(error)), hn::Le(highest, error));
+    const V size = hn::Abs(place.speed);
+    const V t_size = hn::Mul(place.depth, hn::CopySignToAbs(hn::Set(d, 1), place.speed));
+    const V deep =
+        hn::Mul(hn::Set(d, 8 * rays.slack), hn::Mul(place.largest, place.largest));
+    const auto behind_start = hn::Ge(
+        hn::Add(t_size, deep), hn::Neg(hn::Mul(hn::Set(d, rays.slack), size)));
+    const auto before_limit = hn::Le(hn::Sub(t_size, deep), hn::Mul(rays.limit, size));
+    return hn::And(met, hn::And(behind_start, before_limit));
+}
+
+template <typename D>
+HWY_INLINE hn::Mask<D> meets_triangle(D d, const TestedRays<D>& rays, const hn::Vec<D>* values) {
+    using V = hn::Vec<D>;
+    const auto place = plane_place(d, rays, values);
+    const V w = hn::Sub(hn::Sub(place.speed, place.u), place.v);
+    // Moving the ray by slack changes a volume with an edge by at most slack times the edge's
+    // length, which is at most sqrt(3) times its largest component; the third is a sum of two.
+    const V error = hn::Mul(hn::Set(d, 4 * rays.slack), place.largest);
+    return meets_there(
+        d,
+        rays,
+        place,
+        hn::Min(hn::Min(place.u, place.v), w),
+        hn::Max(hn::Max(place.u, place.v), w),
+        error);
+}
+
+template <typename D>
+HWY_INLINE hn::Mask<D> meets_quadrangle(D d, const TestedRays<D>& rays, const hn::Vec<D>* values) {
+    using V = hn::Vec<D>;
+    const auto place = plane_place(d, rays, values);
+    // Left of the sides from (1, 0) to the fourth corner (x, y) and from there to (0, 1).
+    const V one = hn::Set(d, 1);
+    const V x = values[9];
+    const V y = values[10];
+    const V side = hn::Sub(
+        hn::Mul(hn::Sub(x, one), place.v), hn::Mul(y, hn::Sub(place.u, place.speed)));
+    const V other = hn::Sub(
+        hn::Mul(hn::Sub(y, one), place.u), hn::Mul(x, hn::Sub(place.v, place.speed)));
+    const V sizes = hn::Add(one, hn::Add(hn::Abs(x), hn::Abs(y)));
+    const V error = hn::Mul(hn::Mul(hn::Set(d, 8 * rays.slack), place.largest), sizes);
+    return meets_there(
+        d,
+        rays,
+        place,
+        hn::Min(hn::Min(place.u, place.v), hn::Min(side, other)),
+        hn::Max(hn::Max(place.u, place.v), hn::Max(side, other)),
+        error);
+}
+
+template <typename D>
+HWY_INLINE hn::Mask<D> meets_box(D d, const TestedRays<D>& rays, const hn::Vec<D>* values) {
+    using V = hn::Vec<D>;
+    const V slack = hn::Set(d, 2 * rays.slack);
+    V near = hn::Zero(d);
+    V far = rays.limit;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const V lower = hn::Sub(hn::Sub(values[axis], slack), rays.origin[axis]);
+        const V upper = hn::Sub(hn::Add(values[3 + axis], slack), rays.origin[axis]);
+        const V at_lower = hn::Mul(lower, rays.inverse[axis]);
+        const V at_upper = hn::Mul(upper, rays.inverse[axis]);
+        near = hn::Max(near, hn::Min(at_lower, at_upper));
+        far = hn::Min(far, hn::Max(at_lower, at_upper));
+    }
+    return hn::Le(near, hn::Add(far, slack));
+}
+
+template <typename D>
+HWY_INLINE hn::Mask<D> meets_cylinder(D d, const TestedRays<D>& rays, const hn::Vec<D>* values) {
+    using V = hn::Vec<D>;
+    const V radius = values[6];
+    const V half = values[7];
+    const V slack = hn::Set(d, 2 * rays.slack);
+    const V one_up = hn::Set(d, up);
+    const V around =
+        hn::Sqrt(hn::Add(hn::Mul(radius, radius), hn::Mul(half, half)));
+    const auto round =
+        meets_ball(d, rays, values, hn::Add(hn::Mul(around, one_up), slack));
+    // The distance of the ray's line from the axis is |from_axis . across| / |across|.
+    const V to_center[3] = {
+        hn::Sub(values[0], rays.origin[0]),
+        hn::Sub(values[1], rays.origin[1]),
+        hn::Sub(values[2], rays.origin[2])};
+    const V axis_direction[3] = {values[3], values[4], values[5]};
+    V across[3];
+    cross3(rays.direction, axis_direction, across);
+    const V size = hn::Sqrt(dot3(across, across));
+    const V apart = hn::Abs(dot3(to_center, across));
+    const V reach = hn::Add(
+        hn::Mul(size, hn::Mul(hn::Add(radius, slack), one_up)), hn::Add(slack, slack));
+    return hn::And(round, hn::Le(apart, reach));
+}
+
+/// The test of elements of this kind; values as in their records.
+template <typename D>
+HWY_INLINE hn::Mask<D>
+may_meet(D d, const TestedRays<D>& rays, ElementRecord::Kind kind, const hn::Vec<D>* values) {
+    switch (kind) {
+    case ElementRecord::Kind::sphere:
+        return meets_ball(
+            d, rays, values, hn::Add(values[3], hn::Set(d, 2 * rays.slack)));
+    case ElementRecord::Kind::triangle:
+        return meets_triangle(d, rays, values);
+    case ElementRecord::Kind::quadrangle:
+        return meets_quadrangle(d, rays, values);
+    case ElementRecord::Kind::cylinder:
+        return meets_cylinder(d, rays, values);
+    case ElementRecord::Kind::box:
+    case ElementRecord::Kind::call:
+        break;
+    }
+    return meets_box(d, rays, values);
+}
+
+} // namespace HWY_NAMESPACE
+} // namespace vera::detail
+
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,409 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vera/accel/packet_query.h"
+#include "vera/accel/tree_structures.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "vera/accel/tree_search.cpp"
+#include <hwy/foreach_target.h>
+#include "vera/accel/element_tests-inl.h"
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+
+namespace vera::detail {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Rays of a packet, as many as fit into a register.
+using Lanes = hn::CappedTag<float, packet_size>;
+/// Children of a node that a ray is tested against together.
+using Children = hn::CappedTag<float, tree_width>;
+/// Elements of a block that a ray is tested against together.
+using Elements = hn::CappedTag<float, block_width>;
+
+template <typename D>
+HWY_INLINE std::uint32_t bits_of(D d, hn::Mask<D> mask) {
+    std::uint8_t bytes[8] = {};
+    hn::StoreMaskBits(d, mask, bytes);
+    const std::uint32_t all = bytes[0] | std::uint32_t{bytes[1]} << 8U;
+    return all & ((std::uint32_t{1} << hn::Lanes(d)) - 1);
+}
+
+inline const GeometryTree& tree_of(const Frame& frame) {
+    return static_cast<const GeometryTree&>(*frame.local);
+}
+
+/// A child of a node that waits for its turn. What it is stands in the node.
+inline TreeChild child_of(const WideNode& node, std::size_t i) {
+    return {node.first[i], node.kind[i], node.count[i]};
+}
+
+void search_tree(PacketQuery& query, Frame& frame, LaneMask lanes);
+
+void visit_call(PacketQuery& query, Frame& frame, std::uint32_t element, LaneMask lanes) {
+    if (too_deep(frame))
+        return search_plainly(query, frame, element, lanes);
+    const LaneMask entering = enter_call(query, frame, element, lanes);
+    if (entering == 0)
+        return;
+    search_tree(query, query.frames[frame.depth + std::size_t{1}], entering);
+    refresh_limits(query, frame, lanes);
+}
+
+void visit_element(
+    PacketQuery& query,
+    Frame& frame,
+    ElementRecord::Kind kind,
+    std::uint32_t element,
+    LaneMask lanes) {
+    if (kind == ElementRecord::Kind::call)
+        visit_call(query, frame, element, lanes);
+    else
+        test_exactly(query, frame, element, lanes);
+}
+
+inline ElementRecord::Kind element_kind(const TreeChild& child) {
+    return static_cast<ElementRecord::Kind>(child.kind - ChildKind::first_block);
+}
+
+/// A ray as boxes are tested against it. The slack is in the offsets: it moves the planes of a box
+/// outward.
+struct BoxRay {
+    float inverse[3];
+    float near_offset[3];
+    float far_offset[3];
+    bool backward[3];
+};
+
+inline BoxRay box_ray(const Frame& frame, std::size_t lane) {
+    BoxRay ray;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const float inverse = frame.inverse[axis][lane];
+        const float origin = frame.origin[axis][lane];
+        const bool backward = inverse < 0;
+        const float outward = backward ? -2 * frame.slack : 2 * frame.slack;
+        ray.inverse[axis] = inverse;
+        ray.near_offset[axis] = -(origin + outward) * inverse;
+        ray.far_offset[axis] = -(origin - outward) * inverse;
+        ray.backward[axis] = backward;
+    }
+    return ray;
+}
+
+/// The children of the node whose boxes the ray meets before the limit, and where it enters them.
+HWY_INLINE std::uint32_t
+met_children(const WideNode& node, const BoxRay& ray, float limit, float* near_row) {
+    const Children d;
+    std::uint32_t met = 0;
+    for (std::size_t i = 0; i < tree_width; i += hn::Lanes(d)) {
+        auto near = hn::Zero(d);
+        auto far = hn::Set(d, limit);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const auto& first = (ray.backward[axis] ? node.upper : node.lower)[axis];
+            const auto& last = (ray.backward[axis] ? node.lower : node.upper)[axis];
+            const auto inverse = hn::Set(d, ray.inverse[axis]);
+            near = hn::Max(
+                near,
+                hn::MulAdd(
+                    hn::Load(d, first.data() + i), inverse, hn::Set(d, ray.near_offset[axis])));
+            far = hn::Min(
+                far,
+                hn::MulAdd(
+                    hn::Load(d, last.data() + i), inverse, hn::Set(d, ray.far_offset[axis])));
+        }
+        hn::StoreU(near, d, near_row + i);
+        met |= bits_of(d, hn::Le(near, far)) << i;
+    }
+    return met;
+}
+
+HWY_INLINE std::uint32_t met_elements(
+    const GeometryTree& tree, const TreeChild& child, const Frame& frame, std::size_t lane) {
+    const Elements d;
+    const ElementRecord::Kind kind = element_kind(child);
+    const TestedRays<Elements> rays = {
+        {hn::Set(d, frame.origin[0][lane]),
+         hn::Set(d, frame.origin[1][lane]),
+         hn::Set(d, frame.origin[2][lane])},
+        {hn::Set(d, frame.direction[0][lane]),
+         hn::Set(d, frame.direction[1][lane]),
+         hn::Set(d, frame.direction[2][lane])},
+        {hn::Set(d, frame.inverse[0][lane]),
+         hn::Set(d, frame.inverse[1][lane]),
+         hn::Set(d, frame.inverse[2][lane])},
+        hn::Set(d, frame.limit[lane]),
+        frame.slack};
+    const BlockRow* rows = tree.rows.data() + child.first + 1;
+    const std::size_t count = value_count(kind);
+    std::uint32_t met = 0;
+    for (std::size_t i = 0; i < block_width; i += hn::Lanes(d)) {
+        hn::Vec<Elements> values[11];
+        for (std::size_t value = 0; value < 11; ++value)
+            values[value] = value < count ? hn::LoadU(d, rows[value].data() + i) : hn::Zero(d);
+        met |= bits_of(d, may_meet(d, rays, kind, values)) << i;
+    }
+    return met & ((std::uint32_t{1} << child.count) - 1);
+}
+
+inline std::uint32_t element_number(const GeometryTree& tree, const TreeChild& child, std::size_t i) {
+    return std::bit_cast<std::uint32_t>(tree.rows[child.first][i]);
+}
+
+void visit_block_alone(
+    PacketQuery& query, Frame& frame, const TreeChild& child, std::size_t lane) {
+    const GeometryTree& tree = tree_of(frame);
+    if (element_kind(child) != ElementRecord::Kind::call)
+        query.counts.tests += child.count;
+    for (std::uint32_t met = met_elements(tree, child, frame, lane); met != 0; met &= met - 1) {
+        const auto i = static_cast<std::size_t>(std::countr_zero(met));
+        visit_element(
+            query, frame, element_kind(child), element_number(tree, child, i), LaneMask{1} << lane);
+        if ((query.active >> lane & 1U) == 0)
+            return;
+    }
+}
+
+/// Follows one ray down from a node, or a block: the nearest boxes first.
+void search_alone(PacketQuery& query, Frame& frame, std::size_t lane, const TreeChild& from) {
+    const GeometryTree& tree = tree_of(frame);
+    const BoxRay ray = box_ray(frame, lane);
+    std::vector<WaitingAlone>& stack = query.waiting_alone;
+    const std::size_t bottom = stack.size();
+    TreeChild next = from;
+    while (true) {
+        if (next.kind == ChildKind::node) {
+            ++query.counts.cells;
+            const WideNode& node = tree.nodes[next.first];
+            alignas(64) float near[tree_width];
+            std::uint32_t met = met_children(node, ray, frame.limit[lane], near);
+            if (met != 0) {
+                auto i = static_cast<std::size_t>(std::countr_zero(met));
+                met &= met - 1;
+                if (met == 0) {
+                    next = child_of(node, i);
+                    continue;
+                }
+                // The others wait, the nearest on top.
+                const std::size_t first = stack.size();
+                while (true) {
+                    std::size_t place = stack.size();
+                    stack.push_back({child_of(node, i), near[i]});
+                    for (; place > first && stack[place - 1].near < near[i]; --place)
+                        stack[place] = stack[place - 1];
+                    stack[place] = {child_of(node, i), near[i]};
+                    if (met == 0)
+                        break;
+                    i = static_cast<std::size_t>(std::countr_zero(met));
+                    met &= met - 1;
+                }
+                next = stack.back().child;
+                stack.pop_back();
+                continue;
+            }
+        } else {
+            visit_block_alone(query, frame, next, lane);
+            if ((query.active >> lane & 1U) == 0)
+                break;
+        }
+        while (stack.size() > bottom && !(stack.back().near <= frame.limit[lane]))
+            stack.pop_back();
+        if (stack.size() == bottom)
+            return;
+        next = stack.back().child;
+        stack.pop_back();
+    }
+    stack.resize(bottom);
+}
+
+/// A packet's rays as boxes are tested against them.
+struct BoxRays {
+    Frame::Row inverse[3];
+    Frame::Row near_offset[3];
+    Frame::Row far_offset[3];
+};
+
+HWY_INLINE void fill_box_rays(const Frame& frame, BoxRays& rays) {
+    const Lanes d;
+    const auto slack = hn::Set(d, 2 * frame.slack);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        for (std::size_t i = 0; i < packet_size; i += hn::Lanes(d)) {
+            const auto inverse = hn::LoadU(d, frame.inverse[axis].data() + i);
+            const auto origin = hn::LoadU(d, frame.origin[axis].data() + i);
+            const auto outward = hn::CopySign(slack, inverse);
+            hn::StoreU(inverse, d, rays.inverse[axis].data() + i);
+            hn::StoreU(
+                hn::Neg(hn::Mul(hn::Add(origin, outward), inverse)),
+                d,
+                rays.near_offset[axis].data() + i);
+            hn::StoreU(
+                hn::Neg(hn::Mul(hn::Sub(origin, outward), inverse)),
+                d,
+                rays.far_offset[axis].data() + i);
+        }
+}
+
+/// The lanes that meet the box of a node's child before their limits, and where they enter it.
+HWY_INLINE LaneMask meeting_child(
+    const WideNode& node,
+    std::size_t child,
+    const BoxRays& rays,
+    const Frame::Row& limit,
+    float* near_row) {
+    const Lanes d;
+    LaneMask met = 0;
+    for (std::size_t i = 0; i < packet_size; i += hn::Lanes(d)) {
+        auto near = hn::Zero(d);
+        auto far = hn::LoadU(d, limit.data() + i);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const auto inverse = hn::LoadU(d, rays.inverse[axis].data() + i);
+            const auto lower = hn::Set(d, node.lower[axis][child]);
+            const auto upper = hn::Set(d, node.upper[axis][child]);
+            const auto backward = hn::Lt(inverse, hn::Zero(d));
+            const auto first = hn::IfThenElse(backward, upper, lower);
+            const auto last = hn::IfThenElse(backward, lower, upper);
+            near = hn::Max(
+                near,
+                hn::MulAdd(first, inverse, hn::LoadU(d, rays.near_offset[axis].data() + i)));
+            far = hn::Min(
+                far, hn::MulAdd(last, inverse, hn::LoadU(d, rays.far_offset[axis].data() + i)));
+        }
+        hn::StoreU(near, d, near_row + i);
+        met |= bits_of(d, hn::Le(near, far)) << i;
+    }
+    return met;
+}
+
+void visit_block(PacketQuery& query, Frame& frame, const TreeChild& child, LaneMask lanes) {
+    const Lanes d;
+    const GeometryTree& tree = tree_of(frame);
+    const ElementRecord::Kind kind = element_kind(child);
+    const std::size_t count = value_count(kind);
+    const BlockRow* rows = tree.rows.data() + child.first + 1;
+    for (std::size_t i = 0; i < child.count; ++i) {
+        if (kind != ElementRecord::Kind::call)
+            query.counts.tests += static_cast<std::uint64_t>(std::popcount(lanes));
+        hn::Vec<Lanes> values[11];
+        for (std::size_t value = 0; value < 11; ++value)
+            values[value] = hn::Set(d, value < count ? rows[value][i] : 0);
+        LaneMask met = 0;
+        for (std::size_t lane = 0; lane < packet_size; lane += hn::Lanes(d)) {
+            const TestedRays<Lanes> rays = {
+                {hn::LoadU(d, frame.origin[0].data() + lane),
+                 hn::LoadU(d, frame.origin[1].data() + lane),
+                 hn::LoadU(d, frame.origin[2].data() + lane)},
+                {hn::LoadU(d, frame.direction[0].data() + lane),
+                 hn::LoadU(d, frame.direction[1].data() + lane),
+                 hn::LoadU(d, frame.direction[2].data() + lane)},
+                {hn::LoadU(d, frame.inverse[0].data() + lane),
+                 hn::LoadU(d, frame.inverse[1].data() + lane),
+                 hn::LoadU(d, frame.inverse[2].data() + lane)},
+                hn::LoadU(d, frame.limit.data() + lane),
+                frame.slack};
+            met |= bits_of(d, may_meet(d, rays, kind, values)) << lane;
+        }
+        met &= lanes;
+        if (met == 0)
+            continue;
+        visit_element(query, frame, kind, element_number(tree, child, i), met);
+        lanes &= query.active;
+        if (lanes == 0)
+            return;
+    }
+}
+
+/// Follows a packet down from the root. Where few of its rays are left, each goes on alone.
+void search_together(PacketQuery& query, Frame& frame, LaneMask lanes) {
+    const Lanes d;
+    const GeometryTree& tree = tree_of(frame);
+    BoxRays rays;
+    fill_box_rays(frame, rays);
+    std::vector<WaitingTogether>& stack = query.waiting_together;
+    const std::size_t bottom = stack.size();
+    TreeChild next = {0, ChildKind::node, 0};
+    while (true) {
+        if (std::popcount(lanes) <= few_lanes) {
+            for (LaneMask rest = lanes; rest != 0; rest &= rest - 1)
+                search_alone(
+                    query, frame, static_cast<std::size_t>(std::countr_zero(rest)), next);
+        } else if (next.kind == ChildKind::node) {
+            query.counts.cells += static_cast<std::uint64_t>(std::popcount(lanes));
+            const WideNode& node = tree.nodes[next.first];
+            const auto guide = static_cast<std::size_t>(std::countr_zero(lanes));
+            const std::size_t first = stack.size();
+            for (std::size_t i = 0; i < tree_width && node.kind[i] != ChildKind::none; ++i) {
+                stack.emplace_back();
+                WaitingTogether& waiting = stack.back();
+                waiting.lanes =
+                    meeting_child(node, i, rays, frame.limit, waiting.near.data()) & lanes;
+                if (waiting.lanes == 0) {
+                    stack.pop_back();
+                    continue;
+                }
+                waiting.child = child_of(node, i);
+                for (std::size_t place = stack.size() - 1;
+                     place > first && stack[place - 1].near[guide] < stack[place].near[guide];
+                     --place)
+                    std::swap(stack[place - 1], stack[place]);
+            }
+        } else {
+            visit_block(query, frame, next, lanes);
+        }
+
+        lanes = 0;
+        while (lanes == 0 && stack.size() > bottom) {
+            const WaitingTogether& waiting = stack.back();
+            LaneMask before_limit = 0;
+            for (std::size_t i = 0; i < packet_size; i += hn::Lanes(d))
+                before_limit |= bits_of(
+                                    d,
+                                    hn::Le(
+                                        hn::LoadU(d, waiting.near.data() + i),
+                                        hn::LoadU(d, frame.limit.data() + i)))
+                    << i;
+            lanes = waiting.lanes & before_limit & query.active;
+            next = waiting.child;
+            stack.pop_back();
+        }
+        if (lanes == 0)
+            return;
+    }
+}
+
+void search_tree(PacketQuery& query, Frame& frame, LaneMask lanes) {
+    lanes &= query.active;
+    const TreeChild root = {0, ChildKind::node, 0};
+    if (std::popcount(lanes) > few_lanes)
+        return search_together(query, frame, lanes);
+    for (LaneMask rest = lanes; rest != 0; rest &= rest - 1)
+        search_alone(query, frame, static_cast<std::size_t>(std::countr_zero(rest)), root);
+}
+
+void search_trees_kernel(PacketQuery& query) {
+    const LaneMask lanes = enter_scene(query);
+    if (lanes != 0)
+        search_tree(query, query.frames.front(), lanes);
+}
+
+} // namespace HWY_NAMESPACE
+} // namespace vera::detail
+
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+
+namespace vera::detail {
+
+HWY_EXPORT(search_trees_kernel);
+
+void search_trees(PacketQuery& query) {
+    HWY_DYNAMIC_DISPATCH(search_trees_kernel)(query);
+}
+
+} // namespace vera::detail
+
+#endif

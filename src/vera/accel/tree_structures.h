@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "vera/accel/element_records.h"
+#include "vera/accel/local_geometry.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace vera::detail {
+
+/// Children of a node, and elements of a leaf's block.
+constexpr std::size_t tree_width = 8;
+constexpr std::size_t block_width = 4;
+
+/// What a child of a node is: none, another node, or a block of elements of one kind.
+struct ChildKind {
+    static constexpr std::uint8_t none = 0;
+    static constexpr std::uint8_t node = 1;
+    static constexpr std::uint8_t first_block = 2; ///< and ElementRecord::Kind on top
+};
+
+constexpr std::uint8_t block_kind(ElementRecord::Kind kind) {
+    return static_cast<std::uint8_t>(
+        ChildKind::first_block + static_cast<std::uint8_t>(kind));
+}
+
+/// A node: the boxes of its children, axis by axis, in local coordinates, and where these are. The
+/// boxes of absent children are empty.
+struct alignas(64) WideNode {
+    std::array<std::array<float, tree_width>, 3> lower;
+    std::array<std::array<float, tree_width>, 3> upper;
+    std::array<std::uint32_t, tree_width> first; ///< number of the node, or of the block's first row
+    std::array<std::uint8_t, tree_width> kind;
+    std::array<std::uint8_t, tree_width> count; ///< elements of the block
+};
+
+/// Values of the elements of a block: row 0 holds their numbers, row 1 + i value i of their
+/// records. What stands behind the last element is a copy of it.
+using BlockRow = std::array<float, block_width>;
+
+/// How many values a record of the kind has.
+constexpr std::size_t value_count(ElementRecord::Kind kind) {
+    switch (kind) {
+    case ElementRecord::Kind::sphere:
+        return 4;
+    case ElementRecord::Kind::triangle:
+        return 9;
+    case ElementRecord::Kind::quadrangle:
+        return 11;
+    case ElementRecord::Kind::cylinder:
+        return 8;
+    case ElementRecord::Kind::box:
+    case ElementRecord::Kind::call:
+        return 6;
+    }
+    return 0;
+}
+
+/// No path from the root is longer: see where the builder cuts in halves.
+constexpr std::size_t most_tree_levels = 80;
+
+/// The tree of boxes of the main scene or of a subscene.
+struct GeometryTree : LocalGeometry {
+    std::vector<WideNode> nodes; ///< the first is the root; none where the geometry is empty
+    std::vector<BlockRow> rows;
+    std::size_t blocks = 0;
+    std::size_t elements = 0;
+    std::size_t levels = 0;
+};
+
+} // namespace vera::detail
