@@ -200,7 +200,8 @@ HWY_INLINE hn::Mask<D> meets_cylinder(D d, const TestedRays<D>& rays, const hn::
         hn::Sqrt(hn::Add(hn::Mul(radius, radius), hn::Mul(half, half)));
     const auto round =
         meets_ball(d, rays, values, hn::Add(hn::Mul(around, one_up), slack));
-    // The distance of the ray's line from the axis is |from_axis . across| / |across|.
+    // The distance of the ray's line from the axis is |to_center . across| / |across|, and |across|
+    // the sine of the angle between them.
     const V to_center[3] = {
         hn::Sub(values[0], rays.origin[0]),
         hn::Sub(values[1], rays.origin[1]),
@@ -208,11 +209,34 @@ HWY_INLINE hn::Mask<D> meets_cylinder(D d, const TestedRays<D>& rays, const hn::
     const V axis_direction[3] = {values[3], values[4], values[5]};
     V across[3];
     cross3(rays.direction, axis_direction, across);
-    const V size = hn::Sqrt(dot3(across, across));
+    const V sine_squared = dot3(across, across);
+    const V sine = hn::Sqrt(sine_squared);
     const V apart = hn::Abs(dot3(to_center, across));
     const V reach = hn::Add(
-        hn::Mul(size, hn::Mul(hn::Add(radius, slack), one_up)), hn::Add(slack, slack));
-    return hn::And(round, hn::Le(apart, reach));
+        hn::Mul(sine, hn::Mul(hn::Add(radius, slack), one_up)), hn::Add(slack, slack));
+    const auto near_axis = hn::And(round, hn::Le(apart, reach));
+
+    // Where the ray is within reach of the axis, from t = middle - chord to middle + chord, it must
+    // be at the cylinder's heights as well. Of rays almost along the axis that is not asked: their
+    // middle is badly known.
+    const V steep = hn::Set(d, 0.05F);
+    const V per_square = hn::Div(hn::Set(d, 1), hn::Max(sine_squared, hn::Mul(steep, steep)));
+    const V rise = dot3(rays.direction, axis_direction);
+    const V height = dot3(to_center, axis_direction); // of the center above the origin
+    const V middle =
+        hn::Mul(hn::Sub(dot3(to_center, rays.direction), hn::Mul(height, rise)), per_square);
+    const V chord_squared =
+        hn::Max(hn::Zero(d), hn::Sub(hn::Mul(reach, reach), hn::Mul(apart, apart)));
+    // |middle| is at most a few units over the sine's square; its rounding is far below this.
+    const V margin = hn::Mul(slack, hn::Mul(per_square, hn::Set(d, 4)));
+    const V chord = hn::Add(hn::Mul(hn::Sqrt(chord_squared), per_square), margin);
+    const V middle_height = hn::Abs(hn::Sub(hn::Mul(middle, rise), height));
+    const V heights = hn::Add(
+        hn::Add(hn::Mul(half, one_up), hn::Add(slack, slack)), hn::Mul(chord, hn::Abs(rise)));
+    const auto in_range = hn::And(
+        hn::Ge(hn::Add(middle, chord), hn::Zero(d)), hn::Le(hn::Sub(middle, chord), rays.limit));
+    const auto at_heights = hn::And(in_range, hn::Le(middle_height, heights));
+    return hn::And(near_axis, hn::Or(at_heights, hn::Lt(sine, steep)));
 }
 
 /// The test of elements of this kind; values as in their records.

@@ -92,6 +92,24 @@ const PreparedRay& prepared_ray(Frame& frame, std::size_t lane) {
     return frame.prepared[lane];
 }
 
+/// Whether a ray that starts on the element never meets it again.
+bool is_plane(const Geometry& geometry, Element element) {
+    const Item& item = geometry.items[element.item];
+    switch (item.kind) {
+    case ItemKind::triangle:
+    case ItemKind::patch:
+    case ItemKind::mesh:
+        return true;
+    case ItemKind::polygon:
+        return geometry.polygons[item.index].shape != Polygon::Shape::split_quadrangle;
+    case ItemKind::sphere:
+    case ItemKind::rotational_shape:
+    case ItemKind::subscene_call:
+        break;
+    }
+    return false;
+}
+
 /// Notes what a crossing means; true when the lane's limit or its being active has changed.
 bool take_crossing(
     PacketQuery& query, std::size_t lane, double t, FaceId face, MaterialId material) {
@@ -217,14 +235,18 @@ void test_exactly(PacketQuery& query, Frame& frame, std::uint32_t element, LaneM
     const MaterialId material = resolved(geometry.items[place.item].material, frame.material);
     const std::uint64_t primitive = frame.first_primitive
         + (geometry.calls.empty() ? element : primitive_number(geometry, place));
+    const bool plane = is_plane(geometry, place);
     for (LaneMask rest = lanes; rest != 0; rest &= rest - 1) {
         const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+        const bool starts_here = frame.start_element[lane] == element;
+        if (starts_here && plane)
+            continue;
         bool changed = false;
         for_each_crossing(
             geometry,
             place,
             prepared_ray(frame, lane),
-            frame.start_element[lane] == element ? query.rays[lane].start.piece : no_piece,
+            starts_here ? query.rays[lane].start.piece : no_piece,
             [&](double t, std::uint32_t piece) {
                 changed = take_crossing(query, lane, t, {primitive, piece}, material) || changed;
             });

@@ -225,9 +225,11 @@ struct BoxRays {
     Frame::Row inverse[3];
     Frame::Row near_offset[3];
     Frame::Row far_offset[3];
+    bool backward[3] = {};
+    bool one_octant = true; ///< all rays run backward along the same axes
 };
 
-HWY_INLINE void fill_box_rays(const Frame& frame, BoxRays& rays) {
+HWY_INLINE void fill_box_rays(const Frame& frame, LaneMask lanes, BoxRays& rays) {
     const Lanes d;
     const auto slack = hn::Set(d, 2 * frame.slack);
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -245,15 +247,25 @@ HWY_INLINE void fill_box_rays(const Frame& frame, BoxRays& rays) {
                 d,
                 rays.far_offset[axis].data() + i);
         }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        LaneMask backward = 0;
+        for (std::size_t i = 0; i < packet_size; i += hn::Lanes(d))
+            backward |= bits_of(
+                            d, hn::Lt(hn::LoadU(d, frame.inverse[axis].data() + i), hn::Zero(d)))
+                << i;
+        rays.backward[axis] = (backward & lanes) != 0;
+        rays.one_octant = rays.one_octant && ((backward & lanes) == 0 || (~backward & lanes) == 0);
+    }
 }
 
 /// The lanes that meet the box of a node's child before their limits, and where they enter it.
+template <bool one_octant>
 HWY_INLINE LaneMask meeting_child(
     const WideNode& node,
     std::size_t child,
     const BoxRays& rays,
     const Frame::Row& limit,
-    float* near_row) {
+    Frame::Row& near_row) {
     const Lanes d;
     LaneMask met = 0;
     for (std::size_t i = 0; i < packet_size; i += hn::Lanes(d)) {
@@ -261,18 +273,22 @@ HWY_INLINE LaneMask meeting_child(
         auto far = hn::LoadU(d, limit.data() + i);
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const auto inverse = hn::LoadU(d, rays.inverse[axis].data() + i);
-            const auto lower = hn::Set(d, node.lower[axis][child]);
-            const auto upper = hn::Set(d, node.upper[axis][child]);
-            const auto backward = hn::Lt(inverse, hn::Zero(d));
-            const auto first = hn::IfThenElse(backward, upper, lower);
-            const auto last = hn::IfThenElse(backward, lower, upper);
+            const bool turned = one_octant && rays.backward[axis];
+            auto first = hn::Set(d, (turned ? node.upper : node.lower)[axis][child]);
+            auto last = hn::Set(d, (turned ? node.lower : node.upper)[axis][child]);
+            if constexpr (!one_octant) {
+                const auto backward = hn::Lt(inverse, hn::Zero(d));
+                const auto lower = first;
+                first = hn::IfThenElse(backward, last, lower);
+                last = hn::IfThenElse(backward, lower, last);
+            }
             near = hn::Max(
                 near,
                 hn::MulAdd(first, inverse, hn::LoadU(d, rays.near_offset[axis].data() + i)));
             far = hn::Min(
                 far, hn::MulAdd(last, inverse, hn::LoadU(d, rays.far_offset[axis].data() + i)));
         }
-        hn::StoreU(near, d, near_row + i);
+        hn::StoreU(near, d, near_row.data() + i);
         met |= bits_of(d, hn::Le(near, far)) << i;
     }
     return met;
@@ -316,15 +332,23 @@ void visit_block(PacketQuery& query, Frame& frame, const TreeChild& child, LaneM
     }
 }
 
+/// A child that some lanes of a packet meet, and where the first of them enters it.
+struct MetByPacket {
+    std::size_t child = 0;
+    LaneMask lanes = 0;
+    float near = 0;
+};
+
 /// Follows a packet down from the root. Where few of its rays are left, each goes on alone.
 void search_together(PacketQuery& query, Frame& frame, LaneMask lanes) {
     const Lanes d;
     const GeometryTree& tree = tree_of(frame);
     BoxRays rays;
-    fill_box_rays(frame, rays);
+    fill_box_rays(frame, lanes, rays);
     std::vector<WaitingTogether>& stack = query.waiting_together;
     const std::size_t bottom = stack.size();
     TreeChild next = {0, ChildKind::node, 0};
+    alignas(64) Frame::Row near[tree_width];
     while (true) {
         if (std::popcount(lanes) <= few_lanes) {
             for (LaneMask rest = lanes; rest != 0; rest &= rest - 1)
@@ -334,22 +358,25 @@ void search_together(PacketQuery& query, Frame& frame, LaneMask lanes) {
             query.counts.cells += static_cast<std::uint64_t>(std::popcount(lanes));
             const WideNode& node = tree.nodes[next.first];
             const auto guide = static_cast<std::size_t>(std::countr_zero(lanes));
-            const std::size_t first = stack.size();
+            MetByPacket met[tree_width];
+            std::size_t count = 0;
             for (std::size_t i = 0; i < tree_width && node.kind[i] != ChildKind::none; ++i) {
-                stack.emplace_back();
-                WaitingTogether& waiting = stack.back();
-                waiting.lanes =
-                    meeting_child(node, i, rays, frame.limit, waiting.near.data()) & lanes;
-                if (waiting.lanes == 0) {
-                    stack.pop_back();
+                MetByPacket child;
+                child.child = i;
+                child.lanes = lanes
+                    & (rays.one_octant ? meeting_child<true>(node, i, rays, frame.limit, near[i])
+                                       : meeting_child<false>(node, i, rays, frame.limit, near[i]));
+                if (child.lanes == 0)
                     continue;
-                }
-                waiting.child = child_of(node, i);
-                for (std::size_t place = stack.size() - 1;
-                     place > first && stack[place - 1].near[guide] < stack[place].near[guide];
-                     --place)
-                    std::swap(stack[place - 1], stack[place]);
+                child.near = near[i][guide];
+                std::size_t place = count++;
+                for (; place > 0 && met[place - 1].near < child.near; --place)
+                    met[place] = met[place - 1];
+                met[place] = child;
             }
+            for (std::size_t i = 0; i < count; ++i)
+                stack.push_back(
+                    {child_of(node, met[i].child), met[i].lanes, near[met[i].child]});
         } else {
             visit_block(query, frame, next, lanes);
         }

@@ -118,6 +118,10 @@ inline Verdict for_each_cone_crossing(
     const ContourLine& line,
     bool starts_here,
     const Sink& sink) {
+    if (starts_here) {
+        for_other_cone_crossing(prepared, shape, axial, line, sink);
+        return Verdict::settled;
+    }
     // Where the radius of the ray and that of the cone, p + k s, are equal:
     // (a - k^2) s^2 + 2 (b - p k) s + (c - p^2) = 0.
     const double k = axial.rise * line.slope();
@@ -128,9 +132,9 @@ inline Verdict for_each_cone_crossing(
     const double discriminant = dot(sum, sum) - (axial.flat ? axial.a * axial.c : dot(area, area));
     // Of a ray through the tip both lengths are 0.
     const double margin_of_contact = uncertain_part * (p * p * axial.a + k * k * axial.c);
-    if (!(discriminant >= -margin_of_contact) && !starts_here)
+    if (!(discriminant >= -margin_of_contact))
         return Verdict::settled;
-    if (starts_here || (prepared.starts_at_origin() && starts_on_cone(prepared, shape, line))) {
+    if (prepared.starts_at_origin() && starts_on_cone(prepared, shape, line)) {
         for_other_cone_crossing(prepared, shape, axial, line, sink);
         return Verdict::settled;
     }
@@ -219,6 +223,22 @@ sink_covered(const PreparedRay& prepared, const PieceCrossings& found, const Sin
 
 } // namespace detail
 
+/// Whether a ray that starts on a shape of one straight piece, a cone or cylinder, leaves it for
+/// good. Where it is not sure the answer is no.
+inline bool leaves_single_cone(const PreparedRay& prepared, const RotationalShape& shape) {
+    const detail::ContourLine line{shape.start, shape.contour.front().end};
+    if (shape.contour.front().kind != ContourPiece::Kind::line || line.is_ring())
+        return false;
+    // In the arithmetic of for_other_cone_crossing, of which these are the signs.
+    const Vec3 from_base = prepared.ray.origin - shape.base;
+    const double height = dot(from_base, shape.axis);
+    const Vec3 from_axis = from_base - height * shape.axis;
+    const double rise = dot(prepared.ray.direction, shape.axis);
+    const Vec3 across = prepared.ray.direction - rise * shape.axis;
+    const double k = rise * line.slope();
+    return dot(from_axis, across) - line.radius_at(height) * k >= 0 && dot(across, across) > k * k;
+}
+
 /// Calls sink(t, piece) for every crossing, in the ray's range, with the shape. Of the piece that
 /// the ray starts on, by the caller's word or to within rounding, the crossing there is left out.
 template <typename Sink>
@@ -227,6 +247,8 @@ inline void for_each_rotational_crossing(
     const RotationalShape& shape,
     std::uint32_t start_piece,
     const Sink& sink) {
+    if (start_piece == 0 && shape.contour.size() == 1 && leaves_single_cone(prepared, shape))
+        return;
     const AxialRay axial(prepared, shape);
     ContourPiece::Point from = shape.start;
     for (std::size_t i = 0; i < shape.contour.size(); ++i) {

@@ -19,28 +19,30 @@ inline void for_each_sphere_crossing(
     const double speed_squared = dot(direction, direction);
     const Vec3 to_center = sphere.center - prepared.ray.origin;
     const double t_closest = dot(to_center, direction) / speed_squared;
+    const auto sink_other = [&] {
+        // One root of the quadratic equation is 0: what is left of it is linear.
+        if (t_closest > 0 && prepared.covers(2 * t_closest))
+            sink(2 * t_closest);
+    };
+    if (starts_here)
+        return sink_other();
 
     // The distance from the center to the ray, squared, taken as a length and not as
     // |to_center|^2 - t_closest^2, which cancels when the sphere is small and far away.
     const Vec3 offset = to_center - t_closest * direction;
     const double half_chord_squared = sphere.radius * sphere.radius - dot(offset, offset);
-    if (!(half_chord_squared >= 0) && !starts_here)
+    if (!(half_chord_squared >= 0))
         return;
 
-    if (!starts_here && prepared.starts_at_origin()) {
+    if (prepared.starts_at_origin()) {
         const double size =
             max_component(max(abs(sphere.center), {sphere.radius, sphere.radius, sphere.radius}));
         // | |to_center| - radius | times the sum of the two.
         const double from_surface =
             std::abs(dot(to_center, to_center) - sphere.radius * sphere.radius);
         // A point off by so much along each axis is off by sqrt(3) times that.
-        starts_here = from_surface <= 2 * sphere.radius * 1.75 * prepared.start_distance(size);
-    }
-    if (starts_here) {
-        // One root of the quadratic equation is 0: what is left of it is linear.
-        if (t_closest > 0 && prepared.covers(2 * t_closest))
-            sink(2 * t_closest);
-        return;
+        if (from_surface <= 2 * sphere.radius * 1.75 * prepared.start_distance(size))
+            return sink_other();
     }
     const double half_chord = std::sqrt(half_chord_squared / speed_squared);
     for (const double t : {t_closest - half_chord, t_closest + half_chord})
