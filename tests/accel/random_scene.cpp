@@ -56,7 +56,23 @@ private:
         }
     }
 
-    /// A rectangle, perhaps with one corner moved in its plane or out of it.
+    /// Makes it a polygon of many corners within the parallelogram of the corner and two sides.
+    static Polygon comb(Geometry& geometry, Polygon polygon, const std::array<Vec3, 3>& within) {
+        const auto& [p, e, f] = within;
+        polygon.shape = Polygon::Shape::simple;
+        geometry.corners.push_back(p);
+        for (int tooth = 0; tooth < 4; ++tooth) {
+            geometry.corners.push_back(p + 0.25 * tooth * e + f);
+            geometry.corners.push_back(p + (0.25 * tooth + 0.125) * e + f);
+            geometry.corners.push_back(p + (0.25 * tooth + 0.125) * e + 0.5 * f);
+            geometry.corners.push_back(p + 0.25 * (tooth + 1) * e + (tooth < 3 ? 0.5 : 0) * f);
+        }
+        polygon.corner_count =
+            static_cast<std::uint32_t>(geometry.corners.size()) - polygon.first_corner;
+        return polygon;
+    }
+
+    /// A rectangle, perhaps with one corner moved in its plane or out of it, or a comb.
     Polygon polygon(Geometry& geometry) {
         const auto three = corners();
         const Vec3 p = three[0];
@@ -66,7 +82,9 @@ private:
         result.first_corner = static_cast<std::uint32_t>(geometry.corners.size());
         result.corner_count = 4;
         result.normal = normalized(cross(e, f));
-        const std::size_t shape = below(4);
+        const std::size_t shape = below(5);
+        if (shape == 4)
+            return comb(geometry, result, {p, e, f});
         Vec3 last = p + f;
         Vec3 third = p + e + f;
         if (shape == 1) {

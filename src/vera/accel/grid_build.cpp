@@ -420,7 +420,8 @@ std::size_t forecast_bytes(
     const double all_references = std::min(budget, 2.5 * outer);
     const double all_cells = cells + settings.crowd_density * count;
     const double lasting = count * sizeof(ElementRecord) + all_cells * sizeof(Cell)
-        + (all_cells + all_references) * sizeof(std::uint32_t);
+        + (all_cells + all_references) * sizeof(std::uint32_t)
+        + static_cast<double>(most_memory_of_outline_table(geometry));
     const double passing = count * (sizeof(Box3) + sizeof(std::uint32_t))
         + all_cells * 2 * sizeof(std::uint64_t) + all_references * sizeof(std::uint32_t);
     return static_cast<std::size_t>(lasting + passing);
@@ -435,6 +436,7 @@ GeometryGrids build_geometry_grids(
     static_cast<LocalGeometry&>(grids) = local_geometry(geometry, subscene_bounds);
     if (grids.bounds.empty())
         return grids;
+    grids.outlines = outline_table(geometry);
 
     const auto count = static_cast<std::size_t>(geometry.element_count);
     std::vector<Box3> boxes(count);

@@ -65,7 +65,7 @@ GridTreeStatistics TreeOfGrids::statistics() const {
             }
         result.bytes += sizeof(GeometryGrids) + grids.grids.size() * sizeof(detail::Grid)
             + grids.cells.size() * sizeof(detail::Cell) + grids.lists.size() * sizeof(std::uint32_t)
-            + grids.records.size() * sizeof(detail::ElementRecord);
+            + grids.records.size() * sizeof(detail::ElementRecord) + vera::memory(grids.outlines);
     }
     return result;
 }

@@ -4,6 +4,7 @@
 #include "vera/math/box3.h"
 #include "vera/math/vec3.h"
 #include "vera/scene/geometry.h"
+#include "vera/scene/outline_table.h"
 
 #include <vector>
 
@@ -20,6 +21,7 @@ struct LocalGeometry {
     double scale = 1;
     Box3 local_bounds;
     double coordinate_size = 0; ///< the largest that says where anything lies, in scene units
+    OutlineTable outlines;      ///< made by the index, for the tests that decide
 };
 
 inline Vec3 local_point(const LocalGeometry& local, Vec3 point) {

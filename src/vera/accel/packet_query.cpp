@@ -244,6 +244,7 @@ void test_exactly(PacketQuery& query, Frame& frame, std::uint32_t element, LaneM
         bool changed = false;
         for_each_crossing(
             geometry,
+            frame.local->outlines,
             place,
             prepared_ray(frame, lane),
             starts_here ? query.rays[lane].start.piece : no_piece,

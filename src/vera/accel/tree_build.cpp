@@ -438,6 +438,7 @@ GeometryTree build_geometry_tree(
     static_cast<LocalGeometry&>(tree) = local_geometry(geometry, subscene_bounds);
     if (tree.bounds.empty())
         return tree;
+    tree.outlines = outline_table(geometry);
     const auto count = static_cast<std::size_t>(geometry.element_count);
     std::vector<Reference> references(count);
     parallel_ranges(count, 1024, [&](std::size_t first, std::size_t last) {

@@ -49,7 +49,7 @@ public:
             result.blocks += tree.blocks;
             result.elements += tree.elements;
             result.bytes += sizeof(GeometryTree) + tree.nodes.size() * sizeof(detail::WideNode)
-                + tree.rows.size() * sizeof(detail::BlockRow);
+                + tree.rows.size() * sizeof(detail::BlockRow) + vera::memory(tree.outlines);
         }
         return result;
     }

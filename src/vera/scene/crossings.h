@@ -5,6 +5,7 @@
 #include "vera/math/ray.h"
 #include "vera/scene/geometry.h"
 #include "vera/scene/hit.h"
+#include "vera/scene/outline_table.h"
 #include "vera/scene/polygon_crossing.h"
 #include "vera/scene/prepared_ray.h"
 #include "vera/scene/rotational_crossing.h"
@@ -120,6 +121,28 @@ void for_each_crossing(
         break;
     }
     VERA_CHECK(item.kind != ItemKind::subscene_call);
+}
+
+/// The same by the geometry's table of outlines, to the bit, and faster.
+template <typename Sink>
+void for_each_crossing(
+    const Geometry& geometry,
+    const OutlineTable& outlines,
+    Element element,
+    const PreparedRay& prepared,
+    std::uint32_t start_piece,
+    Sink&& sink) {
+    const Item& item = geometry.items[element.item];
+    const OutlineStrips* outline =
+        item.kind == ItemKind::polygon ? outlines.of_polygon(item.index) : nullptr;
+    if (outline == nullptr)
+        return for_each_crossing(geometry, element, prepared, start_piece, sink);
+    if (start_piece != no_piece)
+        return;
+    const Polygon& polygon = geometry.polygons[item.index];
+    if (const auto t = polygon_crossing(
+            prepared, corners_of(geometry, polygon), polygon.normal, outlines, *outline))
+        sink(*t, std::uint32_t{0});
 }
 
 template <typename Sink>
