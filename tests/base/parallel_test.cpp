@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/base/parallel.h"
 
+#include <algorithm>
 #include <numeric>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -36,6 +38,31 @@ TEST(ParallelRanges, LetOneLoopSeeWhatTheLastOneWrote) {
         });
     }
     EXPECT_EQ(copies, std::vector<std::size_t>(1000, 50));
+}
+
+TEST(ParallelRanges, AreTheSameForOneThreadAsForMany) {
+    const auto ranges = [](std::size_t threads, std::size_t count, std::size_t grain) {
+        const ThreadLimit limit(threads);
+        std::vector<std::size_t> ends(count);
+        parallel_ranges(
+            count, grain, [&](std::size_t first, std::size_t last) { ends[first] = last; });
+        return ends;
+    };
+    for (const std::size_t count : {1U, 2U, 63U, 64U, 65U, 1000U, 4097U})
+        for (const std::size_t grain : {1U, 3U, 64U, 4096U})
+            EXPECT_EQ(ranges(1, count, grain), ranges(2, count, grain)) << count << " " << grain;
+}
+
+TEST(ParallelRanges, KeepToTheSmallestOfTwoLimits) {
+    const ThreadLimit one(1);
+    const ThreadLimit several(7);
+    std::vector<std::thread::id> threads(1000);
+    parallel_ranges(threads.size(), 1, [&](std::size_t first, std::size_t) {
+        threads[first] = std::this_thread::get_id();
+    });
+    EXPECT_EQ(
+        std::count(threads.begin(), threads.end(), std::this_thread::get_id()),
+        static_cast<std::ptrdiff_t>(threads.size()));
 }
 
 TEST(ParallelRanges, DoNothingForAnEmptyRange) {

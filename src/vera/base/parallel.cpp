@@ -75,14 +75,38 @@ private:
     LoopOrder& order_;
 };
 
+/// How many limits to one thread hold. oneTBB is then left alone: to start it takes as long as a
+/// small picture.
+std::atomic<int> limits_to_one = 0;
+
+/// Cuts the range where oneTBB would.
+void turn_by_turn(
+    std::size_t first,
+    std::size_t last,
+    std::size_t grain,
+    const std::function<void(std::size_t first, std::size_t last)>& turn) {
+    while (last - first > grain) {
+        const std::size_t middle = first + (last - first) / 2;
+        turn_by_turn(first, middle, grain, turn);
+        first = middle;
+    }
+    turn(first, last);
+}
+
 } // namespace
 
 ThreadLimit::ThreadLimit(std::size_t threads)
-    : control_(new tbb::global_control(
-        tbb::global_control::max_allowed_parallelism,
-        threads == 0 ? static_cast<std::size_t>(tbb::info::default_concurrency()) : threads)) {}
+    : control_(
+        threads == 1 ? nullptr
+                     : new tbb::global_control(
+                         tbb::global_control::max_allowed_parallelism,
+                         threads == 0 ? static_cast<std::size_t>(tbb::info::default_concurrency())
+                                      : threads)) {
+    limits_to_one += control_ == nullptr ? 1 : 0;
+}
 
 ThreadLimit::~ThreadLimit() {
+    limits_to_one -= control_ == nullptr ? 1 : 0;
     delete static_cast<tbb::global_control*>(control_);
 }
 
@@ -90,6 +114,10 @@ void parallel_ranges(
     std::size_t count,
     std::size_t grain,
     const std::function<void(std::size_t first, std::size_t last)>& turn) {
+    if (count == 0)
+        return;
+    if (count <= grain || limits_to_one > 0)
+        return turn_by_turn(0, count, grain, turn);
     LoopOrder order;
     order.before_loop();
     const LoopEnd end(order);
