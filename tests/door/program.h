@@ -59,12 +59,16 @@ struct ProgramRun {
     std::string err;
 };
 
-/// Runs the program with arguments as a shell takes them, in the folder.
-inline ProgramRun run_vera(const ScratchFolder& folder, const std::string& arguments) {
+/// Runs the program with arguments, and variables of its environment, as a shell takes them, in the
+/// folder.
+inline ProgramRun run_vera(
+    const ScratchFolder& folder,
+    const std::string& arguments,
+    const std::string& environment = "") {
     const ScratchFolder streams;
     const std::string command = "cd '" + folder.path().string() + "' && exec >'"
         + (streams.path() / "out").string() + "' 2>'" + (streams.path() / "err").string()
-        + "' </dev/null; '" VERA_PROGRAM "' " + arguments;
+        + "' </dev/null; " + environment + " '" VERA_PROGRAM "' " + arguments;
     const int status = std::system(command.c_str());
     ProgramRun run;
     run.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 namespace vera {
 
@@ -183,6 +184,53 @@ TEST_F(ReadScene, TellsFilesForIncludeFromThoseForMesh) {
         "a.vera:4:9: error: '.' is not a file\n"
         "    INCLUDE \".\"\n"
         "            ^~~\n");
+}
+
+/// Until the end of its scope the process may only do what any user may, even where tests run as
+/// root, who may read everything.
+class AsAnyUser {
+public:
+    AsAnyUser() {
+        constexpr uid_t nobody = 65534;
+        if (user_ == 0 && seteuid(nobody) != 0)
+            std::abort();
+    }
+
+    ~AsAnyUser() {
+        if (user_ == 0 && seteuid(user_) != 0)
+            std::abort();
+    }
+
+    AsAnyUser(const AsAnyUser&) = delete;
+    AsAnyUser& operator=(const AsAnyUser&) = delete;
+
+private:
+    uid_t user_ = geteuid();
+};
+
+TEST_F(ReadScene, TellsOfFilesThatCannotBeRead) {
+    write("secret.vera", "SP 0 0 0 1");
+    write("secret.obj", tetrahedron);
+    std::filesystem::permissions(path("secret.vera"), std::filesystem::perms::none);
+    std::filesystem::permissions(path("secret.obj"), std::filesystem::perms::none);
+    std::filesystem::create_symlink("round.vera", path("round.vera"));
+    write("a.vera", "INCLUDE \"secret.vera\"\nMESH \"secret.obj\"\nINCLUDE \"round.vera\"\n");
+    std::string text;
+    {
+        const AsAnyUser as_any_user;
+        text = said("a.vera");
+    }
+    EXPECT_EQ(
+        text,
+        "a.vera:1:9: error: cannot read 'secret.vera': Permission denied\n"
+        "    INCLUDE \"secret.vera\"\n"
+        "            ^~~~~~~~~~~~~\n"
+        "a.vera:2:6: error: cannot read 'secret.obj': Permission denied\n"
+        "    MESH \"secret.obj\"\n"
+        "         ^~~~~~~~~~~~\n"
+        "a.vera:3:9: error: cannot read 'round.vera': Too many levels of symbolic links\n"
+        "    INCLUDE \"round.vera\"\n"
+        "            ^~~~~~~~~~~~\n");
 }
 
 TEST_F(ReadScene, KeepsAMeshThatIsPlacedOftenOnce) {

@@ -12,15 +12,15 @@
 namespace vera {
 
 /// The scene of a text named "test.vera".
-inline SceneFile read_text(const std::string& text) {
-    return read_vera_scene(SourceText("test.vera", text));
+inline SceneFile read_text(const std::string& text, const SceneLimits& limits = {}) {
+    return read_vera_scene(SourceText("test.vera", text), limits);
 }
 
 /// What is said of a text, as it is printed: warnings, or when it is wrong, all diagnostics.
-inline std::string said_of(const std::string& text) {
+inline std::string said_of(const std::string& text, const SceneLimits& limits = {}) {
     std::vector<Diagnostic> diagnostics;
     try {
-        diagnostics = read_text(text).warnings;
+        diagnostics = read_text(text, limits).warnings;
     } catch (const InputError& error) {
         diagnostics = error.diagnostics();
     }

@@ -504,6 +504,44 @@ TEST(VeraDiagnostics, FindCrossingsInPolygonsOfManySidesInTime) {
         std::string::npos);
 }
 
+TEST(VeraDiagnostics, EndPolygonsWhoseCheckWouldTakeTooLong) {
+    // A zigzag along a diagonal: every side overlaps every other along both axes, and none cross.
+    const std::string text =
+        "PN 8  -9 -9 0  0.1 -0.1 0  9.2 8.8 0  0.3 -0.3 0  9.4 8.6 0  0.5 -0.5 0  "
+        "9.6 8.4 0  0.7 -0.7 0";
+    EXPECT_EQ(said_of(within_scene(text)), "");
+    EXPECT_EQ(
+        said_of(within_scene(text), {.side_pairs = 10}),
+        "test.vera:2:1: error: so many of the polygon's sides lie side by side that checking "
+        "whether they cross takes too long\n"
+        "    "
+            + text
+            + "\n"
+              "    ^~\n"
+              "  split it into several\n");
+}
+
+TEST(VeraDiagnostics, TellOfMoreThanASceneCanNumber) {
+    EXPECT_EQ(said_of(within_scene("SP 0 0 0 2"), {.items = 2}), "");
+    EXPECT_EQ(
+        said_of(within_scene("SP 0 0 0 2\n SP 0 0 0 3"), {.items = 2}),
+        "test.vera:4:1: error: more than 2 primitives or corners in one scene or subscene\n"
+        "    SP 0 0 0 1\n"
+        "    ^~\n"
+        "  move parts of it into subscenes and call them\n");
+    EXPECT_EQ(
+        said_of(within_scene("P4 0 0 0 1 0 0 1 1 0 0 1 0"), {.items = 3}),
+        "test.vera:2:1: error: more than 3 primitives or corners in one scene or subscene\n"
+        "    P4 0 0 0 1 0 0 1 1 0 0 1 0\n"
+        "    ^~\n"
+        "  move parts of it into subscenes and call them\n"
+        "test.vera:3:1: error: more than 3 primitives or corners in one scene or subscene\n"
+        "    SP 0 0 0 1\n"
+        "    ^~\n"
+        "  move parts of it into subscenes and call them\n");
+    EXPECT_EQ(SceneLimits().items, 4'294'967'294U);
+}
+
 TEST(VeraDiagnostics, JudgeInnerPointsTheSameInAnyUnitOfLength) {
     for (const char* unit : {"e-30", "", "e30"}) {
         std::string text = "IP 0.25U 0.25U 1U P3 0 0 0 1U 0 0 0 1U 0\n"

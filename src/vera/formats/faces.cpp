@@ -198,9 +198,8 @@ struct Crossing {
     std::pair<std::size_t, std::size_t> sides = {};
 };
 
-Crossing crossing_of(const Outline& polygon) {
+Crossing crossing_of(const Outline& polygon, std::uint64_t most_side_pairs) {
     // Sides sorted by where they begin along one axis: only those that overlap there are compared.
-    constexpr std::uint64_t most_comparisons = 100'000'000;
     double x_total = 0;
     double y_total = 0;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -225,10 +224,10 @@ Crossing crossing_of(const Outline& polygon) {
     std::sort(ranges.begin(), ranges.end(), [](const Range& a, const Range& b) {
         return a.first != b.first ? a.first < b.first : a.side < b.side;
     });
-    std::uint64_t comparisons = 0;
+    std::uint64_t side_pairs = 0;
     for (std::size_t i = 0; i < ranges.size(); ++i)
         for (std::size_t j = i + 1; j < ranges.size() && ranges[j].first <= ranges[i].last; ++j) {
-            if (++comparisons > most_comparisons)
+            if (++side_pairs > most_side_pairs)
                 return {.too_involved = true};
             const auto [earlier, later] = std::minmax(ranges[i].side, ranges[j].side);
             if (sides_cross(polygon, earlier, later))
@@ -267,11 +266,12 @@ std::optional<Vec3> widest_normal(std::span<const Vec3> corners) {
     return normal_of_cross(along, across, largest_coordinate(corners));
 }
 
-PolygonForm plane_form(std::span<const Vec3> corners, Vec3 normal, bool has_area) {
+PolygonForm plane_form(
+    std::span<const Vec3> corners, Vec3 normal, bool has_area, std::uint64_t most_side_pairs) {
     const Outline polygon = outline(corners, normal);
     PolygonForm form;
     form.normal = normal;
-    const Crossing crossing = crossing_of(polygon);
+    const Crossing crossing = crossing_of(polygon, most_side_pairs);
     if (crossing.too_involved)
         form.kind = PolygonForm::Kind::too_involved;
     else if (crossing.found) {
@@ -352,13 +352,14 @@ PolygonForm quadrangle_form(std::span<const Vec3, 4> corners) {
     const auto check = check_normal(corners);
     if (!check)
         return {};
-    return plane_form(corners, check->normal, check->of_area);
+    constexpr std::uint64_t all_side_pairs = 6;
+    return plane_form(corners, check->normal, check->of_area, all_side_pairs);
 }
 
-PolygonForm polygon_form(std::span<const Vec3> corners) {
+PolygonForm polygon_form(std::span<const Vec3> corners, std::uint64_t most_side_pairs) {
     const double largest = largest_coordinate(corners);
     if (!of_common_size(largest) && largest > 0)
-        return polygon_form(Scaled(corners).corners);
+        return polygon_form(Scaled(corners).corners, most_side_pairs);
     const auto check = check_normal(corners);
     if (!check)
         return {};
@@ -373,7 +374,7 @@ PolygonForm polygon_form(std::span<const Vec3> corners) {
     }
     if ((highest - lowest) / 2 > 1e-6 * max_component(box.upper - box.lower))
         return {.kind = PolygonForm::Kind::not_plane};
-    return plane_form(corners, check->normal, check->of_area);
+    return plane_form(corners, check->normal, check->of_area, most_side_pairs);
 }
 
 std::optional<Outside> outside_of(Vec3 unit_normal, Vec3 first_corner, Vec3 inner_point) {

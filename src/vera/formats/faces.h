@@ -6,6 +6,7 @@
 #include "vera/scene/primitives.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <utility>
@@ -35,8 +36,9 @@ struct PolygonForm {
 /// P4: plane when the lines of the diagonals pass within 1e-6 of the longer one.
 PolygonForm quadrangle_form(std::span<const Vec3, 4> corners);
 
-/// PN: plane when all corners lie within 1e-6 of the polygon's largest extent.
-PolygonForm polygon_form(std::span<const Vec3> corners);
+/// PN: plane when all corners lie within 1e-6 of the polygon's largest extent. Too involved when
+/// more pairs of sides than this would have to be looked at.
+PolygonForm polygon_form(std::span<const Vec3> corners, std::uint64_t most_side_pairs);
 
 /// On which side of a face the inner point lies, as the outside that follows from it; nothing when
 /// it lies in the face's plane: when its distance from the plane is at most 1e-9 of that from the

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
@@ -109,11 +108,12 @@ Material& SceneBuilder::begin_material(std::string_view name, const WordPlace& p
 void SceneBuilder::add_item(
     ItemKind kind, std::size_t index, const WordPlace& place, Outside outside) {
     auto& items = current_->geometry->items;
-    constexpr std::size_t most = std::numeric_limits<std::uint32_t>::max() - 1;
-    if (items.size() >= most || index >= most || current_->geometry->corners.size() > most) {
+    if (items.size() >= limits_.items || index >= limits_.items
+        || current_->geometry->corners.size() > limits_.items) {
         complaints_.error(
             place,
-            "more than 4294967294 primitives or corners in one scene or subscene",
+            fmt::format(
+                "more than {} primitives or corners in one scene or subscene", limits_.items),
             "move parts of it into subscenes and call them");
         return;
     }
@@ -269,7 +269,7 @@ void SceneBuilder::add_quadrangle(const std::array<Vec3, 4>& corners, const Word
 }
 
 void SceneBuilder::add_polygon(const std::vector<Vec3>& corners, const WordPlace& place) {
-    const PolygonForm form = polygon_form(corners);
+    const PolygonForm form = polygon_form(corners, limits_.side_pairs);
     switch (form.kind) {
     case PolygonForm::Kind::not_plane:
         complaints_.error(

@@ -4,6 +4,7 @@
 #include "vera/formats/complaints.h"
 #include "vera/formats/name_table.h"
 #include "vera/formats/scene_file.h"
+#include "vera/formats/scene_limits.h"
 #include "vera/formats/statement_count.h"
 #include "vera/formats/vera_statements.h"
 #include "vera/scene/scene.h"
@@ -22,8 +23,9 @@ namespace vera {
 /// view. The texts that places and names point into must outlive it.
 class SceneBuilder {
 public:
-    explicit SceneBuilder(Complaints& complaints)
-        : complaints_(complaints) {}
+    SceneBuilder(Complaints& complaints, const SceneLimits& limits)
+        : complaints_(complaints)
+        , limits_(limits) {}
 
     /// What is added from now on stands in this text.
     void set_text(const SourceText& text);
@@ -97,6 +99,7 @@ private:
     WordPlace place_of(const Item& item) const;
 
     Complaints& complaints_;
+    SceneLimits limits_;
     Scene scene_;
     std::vector<const SourceText*> texts_; ///< in the order of Scene::files
     std::uint16_t file_ = 0;

@@ -24,8 +24,8 @@ namespace {
 /// Reads statement after statement, from the text and from those that it includes.
 class VeraReader {
 public:
-    explicit VeraReader(const SourceText& text)
-        : builder_(complaints_)
+    VeraReader(const SourceText& text, const SceneLimits& limits)
+        : builder_(complaints_, limits)
         , files_(complaints_) {
         begin_text(text);
     }
@@ -311,8 +311,8 @@ private:
 
 } // namespace
 
-SceneFile read_vera_scene(const SourceText& text) {
-    return VeraReader(text).read();
+SceneFile read_vera_scene(const SourceText& text, const SceneLimits& limits) {
+    return VeraReader(text, limits).read();
 }
 
 } // namespace vera
