@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/formats/mesh_builder.h"
 
+#include "vera/formats/reserve_room.h"
+
 #include <cmath>
 
 #include <fmt/format.h>
@@ -41,9 +43,10 @@ bool is_without_area(Vec3 a, Vec3 b, Vec3 c) {
     return face_normal(a, b, c) == Vec3{};
 }
 
-void MeshBuilder::reserve(std::size_t positions, std::size_t triangles) {
-    mesh_.positions.reserve(positions);
-    mesh_.position_indices.reserve(3 * triangles);
+void MeshBuilder::reserve(std::size_t positions, std::size_t normals, std::size_t triangles) {
+    reserve_room(mesh_.positions, positions);
+    reserve_room(mesh_.normals, normals);
+    reserve_room(mesh_.position_indices, 3 * triangles);
 }
 
 bool MeshBuilder::room_for_another(const std::vector<Vec3>& points, std::size_t offset) {
@@ -110,7 +113,7 @@ void MeshBuilder::add_normals(MeshCorner a, MeshCorner b, MeshCorner c) {
             a.normal == a.position && b.normal == b.position && c.normal == c.position;
         const bool as_before = first || (any_normal_ ? as_positions : !given);
         if (!as_before || (first && given && !as_positions)) {
-            mesh_.normal_indices.reserve(mesh_.position_indices.capacity());
+            reserve_room(mesh_.normal_indices, mesh_.position_indices.capacity());
             if (any_normal_)
                 mesh_.normal_indices.assign(
                     mesh_.position_indices.begin(), mesh_.position_indices.end() - 3);

@@ -33,9 +33,9 @@ public:
 
     Mesh& mesh() { return mesh_; }
 
-    /// Makes room, so that the vectors need not be copied while they grow. Both are only
+    /// Makes room, so that the vectors need not be copied while they grow. All are only
     /// estimates.
-    void reserve(std::size_t positions, std::size_t triangles);
+    void reserve(std::size_t positions, std::size_t normals, std::size_t triangles);
 
     /// Whether the mesh can have another position, or another normal. Complains where not.
     bool room_for_another(const std::vector<Vec3>& points, std::size_t offset);

@@ -4,6 +4,7 @@
 #include "vera/formats/mesh_builder.h"
 #include "vera/formats/nff_mapping.h"
 #include "vera/formats/polygon_triangles.h"
+#include "vera/formats/reserve_room.h"
 #include "vera/formats/source_report.h"
 #include "vera/formats/text_cursor.h"
 
@@ -24,7 +25,8 @@ class NffReader {
 public:
     explicit NffReader(const SourceText& source)
         : report_(source)
-        , cursor_(report_, TextCursor::Lines::newlines_and_comments_are_blanks) {
+        , cursor_(report_, TextCursor::Lines::newlines_and_comments_are_blanks)
+        , spent_(source) {
         scene_.files.push_back(source.name());
         scene_.defaults.depth = nff_depth;
     }
@@ -35,6 +37,7 @@ public:
             start_ = cursor_.offset();
             if (!read_statement())
                 skip_to_statement();
+            spent_.up_to(start_);
         }
         finish_lights();
         if (scene_.geometry.items.empty() && !report_.any_error())
@@ -78,13 +81,13 @@ private:
             in_polygon = word == "p" && !three;
         }
         Geometry& geometry = scene_.geometry;
-        geometry.spheres.reserve(spheres);
-        geometry.rotational_shapes.reserve(cones);
-        geometry.polygons.reserve(polygons);
-        geometry.corners.reserve(corners);
-        geometry.triangles.reserve(triangles);
-        geometry.patches.reserve(patches);
-        geometry.items.reserve(spheres + cones + polygons + triangles + patches);
+        reserve_room(geometry.spheres, spheres);
+        reserve_room(geometry.rotational_shapes, cones);
+        reserve_room(geometry.polygons, polygons);
+        reserve_room(geometry.corners, corners);
+        reserve_room(geometry.triangles, triangles);
+        reserve_room(geometry.patches, patches);
+        reserve_room(geometry.items, spheres + cones + polygons + triangles + patches);
     }
 
     /// Whether the statement could be read to its end.
@@ -483,6 +486,7 @@ private:
 
     SourceReport report_;
     TextCursor cursor_;
+    SpentText spent_;
     Scene scene_;
     std::size_t start_ = 0; ///< of the statement
     std::size_t line_counted_to_ = 0;

@@ -7,7 +7,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <limits>
+#include <optional>
 
 namespace vera {
 
@@ -16,13 +18,6 @@ namespace {
 constexpr std::array<double, 23> powers_of_ten = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                                   1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
                                                   1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
-
-constexpr std::array<std::uint64_t, 20> whole_powers_of_ten = [] {
-    std::array<std::uint64_t, 20> powers = {1};
-    for (std::size_t i = 1; i < powers.size(); ++i)
-        powers[i] = 10 * powers[i - 1];
-    return powers;
-}();
 
 bool is_digit(char letter) {
     return letter >= '0' && letter <= '9';
@@ -87,22 +82,23 @@ Decimal scan_decimal(const char* begin, const char* end) {
     return decimal;
 }
 
-/// digits * 10^-places, correctly rounded, for digits > 0 and at most 19 places: the quotient of
-/// whole numbers to 63 bits or more, with a last bit that stands for any remainder.
-double exact_quotient(std::uint64_t digits, std::size_t places) {
-    const int digits_shift = std::countl_zero(digits);
-    const std::uint64_t divisor = whole_powers_of_ten[places];
-    const int divisor_shift = std::countl_zero(divisor);
-    __extension__ using Wide = unsigned __int128;
-    // Below 2^127 over at least 2^63: less than 2^64, and at least 2^62.
-    const Wide dividend = static_cast<Wide>(digits << static_cast<unsigned>(digits_shift)) << 63U;
-    const std::uint64_t normal_divisor = divisor << static_cast<unsigned>(divisor_shift);
-    auto quotient = static_cast<std::uint64_t>(dividend / normal_divisor);
-    const auto back = static_cast<Wide>(quotient) * normal_divisor;
-    quotient |= back != dividend ? 1U : 0U;
-    // Conversion rounds once, and well, as at least 62 bits say on which side of the middle between
-    // two doubles the quotient lies, or that it is there. Scaling is exact.
-    return std::ldexp(static_cast<double>(quotient), divisor_shift - digits_shift - 63);
+/// The value of eight digits, or nothing when not all eight bytes are digits.
+std::optional<std::uint64_t> eight_digits(const char* p) {
+    std::uint64_t bytes = 0;
+    std::memcpy(&bytes, p, 8);
+    if constexpr (std::endian::native == std::endian::big)
+        return std::nullopt;
+    // Digits are 0x30 to 0x39: their upper half is 3, also when 6 is added.
+    constexpr std::uint64_t upper_halves = 0xf0f0'f0f0'f0f0'f0f0;
+    constexpr std::uint64_t threes = 0x3030'3030'3030'3030;
+    constexpr std::uint64_t sixes = 0x0606'0606'0606'0606;
+    if ((bytes & upper_halves) != threes || ((bytes + sixes) & upper_halves) != threes)
+        return std::nullopt;
+    // Neighbours are put together: digits to pairs, pairs to fours, fours to the whole.
+    bytes -= threes;
+    bytes = (10 * bytes + (bytes >> 8U)) & 0x00ff'00ff'00ff'00ffU;
+    bytes = (100 * bytes + (bytes >> 16U)) & 0x0000'ffff'0000'ffffU;
+    return (10'000 * bytes + (bytes >> 32U)) & 0xffff'ffffU;
 }
 
 /// Numbers of any length and size.
@@ -159,6 +155,12 @@ ScannedNumber scan_number(const char* begin, const char* end) {
     std::size_t places = 0;
     if (p != end && *p == '.') {
         const char* const fraction = ++p;
+        for (; end - p >= 8; p += 8) {
+            const auto eight = eight_digits(p);
+            if (!eight)
+                break;
+            digits = 100'000'000 * digits + *eight;
+        }
         for (; p != end && is_digit(*p); ++p)
             digits = 10 * digits + static_cast<std::uint64_t>(*p - '0');
         places = static_cast<std::size_t>(p - fraction);
@@ -171,9 +173,9 @@ ScannedNumber scan_number(const char* begin, const char* end) {
     // Digits below 2^53 and powers of ten up to 10^22 are exact doubles, so that one division
     // rounds correctly (Clinger 1990).
     constexpr std::uint64_t largest_exact = std::uint64_t{1} << 53U;
-    const double value = digits <= largest_exact
-        ? static_cast<double>(digits) / powers_of_ten[places]
-        : exact_quotient(digits, places);
+    double value = static_cast<double>(digits) / powers_of_ten[places];
+    if (digits > largest_exact)
+        std::from_chars(whole, p, value);
     return {negative ? -value : value, p, ScannedNumber::Outcome::good};
 }
 

@@ -31,7 +31,8 @@ public:
     explicit ObjReader(const SourceText& source)
         : report_(source)
         , cursor_(report_, TextCursor::Lines::continue_behind_backslash)
-        , builder_(report_) {}
+        , builder_(report_)
+        , spent_(source) {}
 
     Mesh read(std::vector<Diagnostic>& warnings) {
         reserve();
@@ -44,6 +45,7 @@ public:
             }
             read_statement();
             cursor_.skip_line();
+            spent_.up_to(cursor_.offset());
         }
         warn();
         return builder_.finish(warnings);
@@ -54,21 +56,28 @@ private:
     /// them takes, and nothing has to be copied while the mesh grows.
     void reserve() {
         std::size_t positions = 0;
+        std::size_t normals = 0;
         std::size_t triangles = 0;
         TextCursor counter = cursor_;
         for (; !counter.at_end(); counter.skip_line()) {
             const char first = counter.peek();
-            if (first != 'v' && first != 'f')
-                continue;
-            counter.step();
-            if (counter.peek() != ' ')
-                continue;
-            if (first == 'v')
-                ++positions;
-            else
-                ++triangles;
+            if (first == 'f') {
+                triangles += corner_count(counter.rest_of_line()) - 2;
+            } else if (first == 'v') {
+                counter.step();
+                positions += counter.peek() == ' ' ? 1 : 0;
+                normals += counter.peek() == 'n' ? 1 : 0;
+            }
         }
-        builder_.reserve(positions, triangles);
+        // No line holds a point in less than "v 0 0 0".
+        const std::size_t most = report_.source().text().size() / 8;
+        builder_.reserve(std::min(positions, most), std::min(normals, most), triangles);
+    }
+
+    /// As many as the line of a face has blanks, at least 3, at most what there is room for.
+    static std::size_t corner_count(std::string_view line) {
+        const auto blanks = static_cast<std::size_t>(std::count(line.begin(), line.end(), ' '));
+        return std::max<std::size_t>(std::min(blanks, line.size() / 2), 3);
     }
 
     void read_statement() {
@@ -227,6 +236,7 @@ private:
     SourceReport report_;
     TextCursor cursor_;
     MeshBuilder builder_;
+    SpentText spent_;
     std::vector<MeshCorner> corners_;
     Tally free_form_;
     Tally unknown_;

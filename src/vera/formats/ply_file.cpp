@@ -160,6 +160,7 @@ public:
                                                 : SourceReport::Places::bytes)
         , header_(header)
         , builder_(report_)
+        , spent_(source)
         , values_(report_, header.encoding, header.data) {}
 
     Mesh read(std::vector<Diagnostic>& warnings) {
@@ -229,9 +230,11 @@ private:
                 targets[*normal_places[axis]] = 3 + axis;
         }
         reserve(element.count);
-        for (std::uint64_t i = 0; i < element.count && !report_.full(); ++i)
+        for (std::uint64_t i = 0; i < element.count && !report_.full(); ++i) {
             if (!read_vertex(element, targets))
                 return false;
+            spent_.up_to(values_.offset());
+        }
         return true;
     }
 
@@ -248,9 +251,7 @@ private:
             triangles =
                 std::min<std::size_t>(faces->count, report_.source().text().size() / smallest);
         }
-        builder_.reserve(vertex_count, triangles);
-        if (has_normals_)
-            builder_.mesh().normals.reserve(vertex_count);
+        builder_.reserve(vertex_count, has_normals_ ? vertex_count : 0, triangles);
     }
 
     bool read_vertex(const PlyElement& element, const std::vector<std::size_t>& targets) {
@@ -295,9 +296,11 @@ private:
         }
         std::swap(values, values_);
         bool whole = true;
-        for (std::uint64_t i = 0; i < element.count && whole && !report_.full(); ++i)
+        for (std::uint64_t i = 0; i < element.count && whole && !report_.full(); ++i) {
             for (std::size_t p = 0; p < element.properties.size() && whole; ++p)
                 whole = p == *list ? read_face(element.properties[p]) : skip(element.properties[p]);
+            spent_.up_to(values_.offset());
+        }
         std::swap(values, values_);
         return whole;
     }
@@ -388,6 +391,7 @@ private:
     SourceReport report_;
     const PlyHeader& header_;
     MeshBuilder builder_;
+    SpentText spent_;
     Values values_;
     std::vector<MeshCorner> corners_;
     bool has_normals_ = false;

@@ -3,6 +3,7 @@
 
 #include "vera/formats/faces.h"
 #include "vera/formats/inner_point_check.h"
+#include "vera/formats/reserve_room.h"
 #include "vera/formats/word_reader.h"
 
 #include <algorithm>
@@ -42,27 +43,14 @@ void SceneBuilder::end_subscene() {
     current_ = &main_;
 }
 
-namespace {
-
-/// Room for more: exactly, unless that would mean to move everything again and again.
-template <typename Element>
-void reserve_more(std::vector<Element>& elements, std::size_t more) {
-    const std::size_t needed = elements.size() + more;
-    if (needed <= elements.capacity())
-        return;
-    elements.reserve(elements.empty() ? needed : std::max(needed, 2 * elements.capacity()));
-}
-
-} // namespace
-
 void SceneBuilder::reserve(const StatementCounts& counts) {
     Geometry& geometry = *current_->geometry;
-    reserve_more(geometry.spheres, counts.spheres);
-    reserve_more(geometry.triangles, counts.triangles);
-    reserve_more(geometry.polygons, counts.polygons);
-    reserve_more(geometry.corners, counts.corners);
-    reserve_more(geometry.patches, counts.patches);
-    reserve_more(geometry.items, counts.items());
+    reserve_room(geometry.spheres, counts.spheres);
+    reserve_room(geometry.triangles, counts.triangles);
+    reserve_room(geometry.polygons, counts.polygons);
+    reserve_room(geometry.corners, counts.corners);
+    reserve_room(geometry.patches, counts.patches);
+    reserve_room(geometry.items, counts.items());
 }
 
 void SceneBuilder::set_material(std::string_view name, const WordPlace& place) {

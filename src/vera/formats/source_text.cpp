@@ -116,10 +116,14 @@ SourceText::~SourceText() {
         munmap(mapping_, size_);
 }
 
-void SourceText::forget(std::size_t offset) const {
+void SourceText::forget(std::size_t begin, std::size_t end) const {
+    if (mapping_ == nullptr)
+        return;
     const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
-    if (mapping_ != nullptr)
-        madvise(mapping_, std::min(offset, size_) / page * page, MADV_DONTNEED);
+    const std::size_t first = begin / page * page;
+    const std::size_t last = std::min(end, size_) / page * page;
+    if (first < last)
+        madvise(static_cast<char*>(mapping_) + first, last - first, MADV_DONTNEED);
 }
 
 SourcePlace SourceText::place(std::size_t offset) const {

@@ -31,9 +31,9 @@ public:
 
     std::string_view text() const { return {data_, size_}; }
 
-    /// Gives the memory of what stands before the offset back to the machine, where the text is a
+    /// Gives the memory of what stands between two offsets back to the machine, where the text is a
     /// mapped file. It is read again when it is asked for.
-    void forget(std::size_t offset) const;
+    void forget(std::size_t begin, std::size_t end) const;
 
     /// The place of the byte at an offset, or just behind the end.
     SourcePlace place(std::size_t offset) const;
@@ -56,6 +56,28 @@ private:
     const char* data_ = nullptr;
     std::size_t size_ = 0;
     void* mapping_ = nullptr;
+};
+
+/// What has been read of a text that is read from front to back: its memory is given back now and
+/// then, so that a text and what is made of it are never in memory as a whole both.
+class SpentText {
+public:
+    /// The text must outlive it.
+    explicit SpentText(const SourceText& text)
+        : text_(&text) {}
+
+    /// What stands before the offset has been read.
+    void up_to(std::size_t offset) {
+        constexpr std::size_t step = 1U << 20U;
+        if (offset < forgotten_ + step)
+            return;
+        text_->forget(forgotten_, offset);
+        forgotten_ = offset;
+    }
+
+private:
+    const SourceText* text_;
+    std::size_t forgotten_ = 0;
 };
 
 } // namespace vera

@@ -55,15 +55,18 @@ public:
         : report_(source, SourceReport::Places::bytes)
         , text_(source.text())
         , builder_(report_)
-        , points_(builder_.mesh().positions) {}
+        , points_(builder_.mesh().positions)
+        , spent_(source) {}
 
     Mesh read(std::vector<Diagnostic>& warnings) {
         const std::uint64_t count = triangle_count();
         // Room for corners that are all different, as far as that is ever touched.
-        builder_.reserve(3 * count, count);
-        for (std::uint64_t i = 0; i < count && !report_.full(); ++i)
+        builder_.reserve(3 * count, 0, count);
+        for (std::uint64_t i = 0; i < count && !report_.full(); ++i) {
             if (!read_triangle(i))
                 break;
+            spent_.up_to(triangles_begin + i * triangle_size);
+        }
         return builder_.finish(warnings);
     }
 
@@ -136,6 +139,7 @@ private:
     std::string_view text_;
     MeshBuilder builder_;
     SharedPoints points_;
+    SpentText spent_;
 };
 
 class AsciiReader {
@@ -144,12 +148,13 @@ public:
         : report_(source)
         , cursor_(report_, TextCursor::Lines::newlines_are_blanks)
         , builder_(report_)
-        , points_(builder_.mesh().positions) {}
+        , points_(builder_.mesh().positions)
+        , spent_(source) {}
 
     Mesh read(std::vector<Diagnostic>& warnings) {
         // A facet takes some 250 bytes, and hardly less than 100.
         const std::size_t triangles = report_.source().text().size() / 100;
-        builder_.reserve(triangles, triangles);
+        builder_.reserve(triangles, 0, triangles);
         while (!report_.full() && read_solid()) {
         }
         return builder_.finish(warnings);
@@ -177,6 +182,7 @@ private:
             }
             if (!read_facet())
                 return false;
+            spent_.up_to(cursor_.offset());
         }
     }
 
@@ -225,6 +231,7 @@ private:
     TextCursor cursor_;
     MeshBuilder builder_;
     SharedPoints points_;
+    SpentText spent_;
     std::vector<MeshCorner> corners_;
 };
 

@@ -78,6 +78,16 @@ public:
         }
     }
 
+    /// What is left of the line, without its end, wherever it goes on.
+    std::string_view rest_of_line() const {
+        const auto left = static_cast<std::size_t>(end_ - at_);
+        const void* const newline = std::memchr(at_, '\n', left);
+        return {
+            at_,
+            newline == nullptr ? left
+                               : static_cast<std::size_t>(static_cast<const char*>(newline) - at_)};
+    }
+
     /// Goes behind the end of this line, whatever it ends in.
     void skip_comment() {
         const void* const found = std::memchr(at_, '\n', static_cast<std::size_t>(end_ - at_));

@@ -46,6 +46,11 @@ constexpr std::array<std::string_view, 4> transformation_words = {"MX", "RT", "T
 constexpr std::array<std::string_view, 8> property_words = {
     "DRF", "ARF", "SDI", "SAN", "RAB", "TAB", "SPC", "REF"};
 
+/// Two letters as a number, which is compared in one step.
+constexpr unsigned letter_pair(std::string_view word) {
+    return static_cast<unsigned char>(word[0]) * 256U + static_cast<unsigned char>(word[1]);
+}
+
 /// The statements of two letters, those of which texts have most first. RS and RK begin the same.
 inline std::optional<Statement> short_statement_named(std::string_view word) {
     constexpr std::array<std::pair<std::string_view, Statement>, 11> statements = {{
@@ -61,8 +66,9 @@ inline std::optional<Statement> short_statement_named(std::string_view word) {
         {"MA", Statement::material},
         {"LI", Statement::light},
     }};
+    const unsigned pair = letter_pair(word);
     for (const auto& [name, statement] : statements)
-        if (word == name)
+        if (pair == letter_pair(name))
             return statement;
     return std::nullopt;
 }

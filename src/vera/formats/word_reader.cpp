@@ -90,7 +90,8 @@ WordReader::WordReader(const SourceText& text, Complaints& complaints)
     , complaints_(complaints)
     , at_(text.text().data())
     , end_(at_ + text.text().size())
-    , line_begin_(at_) {
+    , line_begin_(at_)
+    , spent_(text) {
     // Some editors begin a text with a mark of its encoding.
     if (text.text().substr(0, 3) == "\xef\xbb\xbf")
         at_ += 3;

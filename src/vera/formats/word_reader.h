@@ -72,13 +72,7 @@ public:
     std::string_view rest() const { return {at_, static_cast<std::size_t>(end_ - at_)}; }
 
     /// Lets the memory of what has been read go, now and then, when the text is a mapped file.
-    void forget_what_was_read() {
-        constexpr std::size_t step = 4'000'000;
-        if (offset() - forgotten_ > step) {
-            forgotten_ = offset();
-            text_.forget(forgotten_);
-        }
-    }
+    void forget_what_was_read() { spent_.up_to(offset()); }
 
     std::size_t offset() const { return static_cast<std::size_t>(at_ - text_.text().data()); }
 
@@ -103,7 +97,7 @@ private:
     const char* line_begin_;
     std::uint64_t line_ = 1;
     WordPlace last_;
-    std::size_t forgotten_ = 0;
+    SpentText spent_;
     bool in_open_comment_ = false;
 };
 
