@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "vera/scene/scene.h"
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <embree3/rtcore.h>
+
+namespace vera {
+
+/// How much time Embree spends on building.
+enum class EmbreeQuality { medium, high };
+
+/// Whether Embree looks that no ray slips through an edge.
+enum class EmbreeEdges { fast, robust };
+
+struct EmbreeSettings {
+    EmbreeQuality quality = EmbreeQuality::medium;
+    EmbreeEdges edges = EmbreeEdges::fast;
+};
+
+const char* name_of(EmbreeQuality quality);
+
+/// Embree's library, with so many threads.
+class EmbreeDevice {
+public:
+    /// Settings are what rtcNewDevice takes beside the threads: "isa=avx2" for one. Throws
+    /// std::runtime_error where Embree does not start.
+    EmbreeDevice(std::size_t threads, const std::string& settings);
+    ~EmbreeDevice();
+    EmbreeDevice(const EmbreeDevice&) = delete;
+    EmbreeDevice& operator=(const EmbreeDevice&) = delete;
+
+    RTCDevice handle() const { return device_; }
+
+    /// Bytes that Embree holds now.
+    std::int64_t bytes() const { return bytes_; }
+
+    /// As "3.13.5".
+    std::string version() const;
+
+private:
+    RTCDevice device_;
+    std::atomic<std::int64_t> bytes_ = 0;
+};
+
+/// The corners and triangles, and the spheres, of a scene, as Embree reads them. Embree refers to
+/// them, as our indexes refer to the scene.
+struct EmbreeInput {
+    std::vector<float> corners;           ///< three each, and one more: Embree reads four at a time
+    std::vector<std::uint32_t> triangles; ///< three corners each
+    std::vector<float> spheres;           ///< x, y, z and radius each
+};
+
+/// Throws std::runtime_error for a scene with more than meshes, triangles, patches, convex polygons
+/// and spheres.
+EmbreeInput embree_input(const Scene& scene);
+
+/// What Embree finds rays' hits with.
+class EmbreeScene {
+public:
+    /// Builds; device and input must outlive the scene.
+    EmbreeScene(EmbreeDevice& device, const EmbreeInput& input, const EmbreeSettings& settings);
+    ~EmbreeScene();
+    EmbreeScene(const EmbreeScene&) = delete;
+    EmbreeScene& operator=(const EmbreeScene&) = delete;
+
+    RTCScene handle() const { return scene_; }
+
+    /// Bytes that the building left, beside the input.
+    std::int64_t memory() const { return memory_; }
+
+private:
+    RTCScene scene_;
+    std::int64_t memory_ = 0;
+};
+
+} // namespace vera

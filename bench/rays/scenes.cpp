@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenes.h"
+
+#include "vera/base/diagnostic.h"
+#include "vera/formats/mesh_file.h"
+#include "vera/formats/read_scene.h"
+#include "vera/scene/framing.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <functional>
+#include <utility>
+
+#include "meshes.h"
+
+namespace vera {
+
+namespace {
+
+std::filesystem::path
+folder_of_environment(const char* variable, const std::filesystem::path& usual) {
+    const char* const value = std::getenv(variable);
+    return value != nullptr ? std::filesystem::path(value) : usual;
+}
+
+/// A square picture of what lies round the target, from the eye; half_field is half its width at
+/// the distance 1. z is up where the third number of up says so.
+Camera camera_at(Vec3 eye, Vec3 target, double half_field, Vec3 up = {0, 1, 0}) {
+    const Vec3 forward = normalized(target - eye);
+    const Vec3 right = half_field * normalized(cross(forward, up));
+    const Vec3 upward = half_field * normalized(cross(right, forward));
+    Camera camera;
+    camera.viewpoint = eye;
+    camera.lower_left = eye + forward - right - upward;
+    camera.lower_right = eye + forward + right - upward;
+    camera.upper_left = eye + forward - right + upward;
+    return camera;
+}
+
+Scene scene_of(Mesh mesh) {
+    round_to_floats(mesh);
+    Scene scene;
+    scene.geometry.meshes.push_back(std::move(mesh));
+    Item item;
+    item.kind = ItemKind::mesh;
+    scene.geometry.items.push_back(item);
+    number_primitives(scene);
+    return scene;
+}
+
+Scene scene_of(Mesh mesh, const Camera& camera, Vec3 light) {
+    Scene scene = scene_of(std::move(mesh));
+    scene.camera = camera;
+    scene.lights.push_back({light, 1, {1, 1, 1}, Falloff::none});
+    return scene;
+}
+
+std::optional<Mesh> model(const char* name) {
+    const auto path = folder_of_environment("VERA_MODELS", "../shared/models") / name;
+    if (!std::filesystem::exists(path))
+        return std::nullopt;
+    std::vector<Diagnostic> warnings;
+    return read_mesh(path, warnings);
+}
+
+std::optional<Scene> bunny(BenchSize) {
+    auto mesh = model("stanford-bunny.obj");
+    if (!mesh)
+        return std::nullopt;
+    Scene scene = scene_of(std::move(*mesh));
+    scene.camera = framed_camera(scene, {});
+    scene.lights = default_lights(scene, *scene.camera);
+    return scene;
+}
+
+std::optional<Scene> flake(const Sphereflake& size) {
+    const Camera camera = camera_at({2.1, 1.3, 1.7}, {0, 0, 0}, 0.38, {0, 0, 1});
+    return scene_of(tessellated(size), camera, {4, 3, 2});
+}
+
+std::optional<Scene> hall(BenchSize size) {
+    return scene_of(
+        hall_mesh(size == BenchSize::full ? 128 : 24),
+        camera_at({-28, 5, -8}, {10, 6, 4}, 0.7),
+        {2.5, 14, 3});
+}
+
+std::optional<Scene> stadium(BenchSize size) {
+    const auto teapot = model("teapot.obj");
+    if (!teapot)
+        return std::nullopt;
+    Mesh mesh = stadium_mesh(size == BenchSize::full ? 2000 : 200);
+    const Vec3 place = {3, 0, 2};
+    add_model(mesh, *teapot, 0.3, place);
+    const Vec3 middle = place + Vec3{0, 0.07, 0};
+    return scene_of(
+        std::move(mesh), camera_at(middle + Vec3{0.3, 0.25, 0.6}, middle, 0.4), {40, 50, 30});
+}
+
+std::optional<Scene> mountain(BenchSize size) {
+    return scene_of(
+        mountain_mesh(size == BenchSize::full ? 512 : 64),
+        camera_at({0.4, 0.9, 2.2}, {0, 0, 0.1}, 0.45),
+        {2, 1.5, 0.5});
+}
+
+std::optional<Scene> tree(BenchSize size) {
+    return scene_of(
+        tree_mesh(size == BenchSize::full ? 9 : 6),
+        camera_at({8, 6, 16}, {0, 5, 0}, 0.42),
+        {15, 25, 10});
+}
+
+std::optional<Scene> standard_scene(const char* name) {
+    const auto path = folder_of_environment("VERA_SCENES", "../shared/scenes") / "spd" / name;
+    if (!std::filesystem::exists(path))
+        return std::nullopt;
+    Scene scene = read_scene(path).scene;
+    for (Material& material : scene.materials)
+        material.tab = {}; // any surface hides the light
+    return scene;
+}
+
+/// How a scene is made, and whether it is measured unless another is named.
+struct Recipe {
+    const char* name;
+    BenchSceneKind kind;
+    bool usual;
+    std::function<std::optional<Scene>(BenchSize)> make;
+};
+
+const std::vector<Recipe>& recipes() {
+    using enum BenchSceneKind;
+    static const std::vector<Recipe> all = {
+        {"bunny", triangles, true, bunny},
+        {"flake",
+         triangles,
+         true,
+         [](BenchSize size) {
+             return flake({size == BenchSize::full ? 4U : 2U, 2});
+         }},
+        {"hall", triangles, true, hall},
+        {"stadium", triangles, true, stadium},
+        {"mountain", triangles, true, mountain},
+        {"tree", triangles, true, tree},
+        {"balls_4", spheres, true, [](BenchSize) { return standard_scene("balls_4.nff"); }},
+        {"shells_5", spheres, true, [](BenchSize) { return standard_scene("shells_5.nff"); }},
+        {"flake_large", triangles, false, [](BenchSize size) {
+             return flake({size == BenchSize::full ? 5U : 3U, 2});
+         }}};
+    return all;
+}
+
+} // namespace
+
+std::vector<std::string> bench_scene_names() {
+    std::vector<std::string> names;
+    for (const Recipe& recipe : recipes())
+        names.emplace_back(recipe.name);
+    return names;
+}
+
+std::vector<std::string> usual_bench_scene_names() {
+    std::vector<std::string> names;
+    for (const Recipe& recipe : recipes())
+        if (recipe.usual)
+            names.emplace_back(recipe.name);
+    return names;
+}
+
+std::optional<BenchScene> bench_scene(const std::string& name, BenchSize size) {
+    const auto recipe = std::find_if(
+        recipes().begin(), recipes().end(), [&](const Recipe& each) { return each.name == name; });
+    if (recipe == recipes().end())
+        return std::nullopt;
+    auto scene = recipe->make(size);
+    if (!scene)
+        return std::nullopt;
+    return BenchScene{name, recipe->kind, std::move(*scene)};
+}
+
+} // namespace vera
