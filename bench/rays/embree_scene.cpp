@@ -102,17 +102,6 @@ EmbreeDevice::~EmbreeDevice() {
     rtcReleaseDevice(device_);
 }
 
-std::string EmbreeDevice::version() const {
-    const auto part = [&](RTCDeviceProperty property) {
-        return rtcGetDeviceProperty(device_, property);
-    };
-    return fmt::format(
-        "{}.{}.{}",
-        part(RTC_DEVICE_PROPERTY_VERSION_MAJOR),
-        part(RTC_DEVICE_PROPERTY_VERSION_MINOR),
-        part(RTC_DEVICE_PROPERTY_VERSION_PATCH));
-}
-
 EmbreeInput embree_input(const Scene& scene) {
     EmbreeInput input;
     for (const Item& item : scene.geometry.items)

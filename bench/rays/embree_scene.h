@@ -42,9 +42,6 @@ public:
     /// Bytes that Embree holds now.
     std::int64_t bytes() const { return bytes_; }
 
-    /// As "3.13.5".
-    std::string version() const;
-
 private:
     RTCDevice device_;
     std::atomic<std::int64_t> bytes_ = 0;

@@ -49,6 +49,9 @@ struct RaysMeasurement {
     double disagreement = 0; ///< part of the rays that some call of Embree's answered otherwise
 };
 
+/// More than this is no comparison of like with like.
+constexpr double largest_disagreement = 1e-3;
+
 /// The fastest call of Embree's. There is one.
 const EmbreeRate& best(const RaysMeasurement& measurement);
 

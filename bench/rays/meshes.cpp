@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "lattice.h"
@@ -28,12 +30,12 @@ double degrees(std::size_t i, std::size_t count) {
     return 360 * static_cast<double>(i) / static_cast<double>(count);
 }
 
-void add_divided(Mesh& mesh, const Sphere& sphere, std::array<Vec3, 3> face, std::uint32_t times) {
+/// Adds the points of the unit sphere round the face, divided into four so many times.
+void add_divided(Mesh& mesh, std::array<Vec3, 3> face, std::uint32_t times) {
     if (times == 0) {
-        std::array<std::uint32_t, 3> corners = {};
-        for (std::size_t i = 0; i < 3; ++i)
-            corners[i] = add_corner(mesh, sphere.center + sphere.radius * face[i]);
-        add_triangle(mesh, corners[0], corners[1], corners[2]);
+        const std::uint32_t a = add_corner(mesh, face[0]);
+        const std::uint32_t b = add_corner(mesh, face[1]);
+        add_triangle(mesh, a, b, add_corner(mesh, face[2]));
         return;
     }
     const Vec3 ab = normalized(face[0] + face[1]);
@@ -44,40 +46,66 @@ void add_divided(Mesh& mesh, const Sphere& sphere, std::array<Vec3, 3> face, std
           std::array{ab, face[1], bc},
           std::array{ca, bc, face[2]},
           std::array{ab, bc, ca}})
-        add_divided(mesh, sphere, part, times - 1);
+        add_divided(mesh, part, times - 1);
 }
 
-void add_sphere(Mesh& mesh, const Sphere& sphere, std::uint32_t divisions) {
+/// The mesh with one corner in place of all that are equal.
+Mesh with_shared_corners(const Mesh& mesh) {
+    std::map<std::array<double, 3>, std::uint32_t> numbers;
+    Mesh result;
+    for (const std::uint32_t corner : mesh.position_indices) {
+        const Vec3 point = mesh.positions[corner];
+        const auto next = static_cast<std::uint32_t>(result.positions.size());
+        const auto [at, is_new] = numbers.try_emplace({point.x, point.y, point.z}, next);
+        if (is_new)
+            add_corner(result, point);
+        result.position_indices.push_back(at->second);
+    }
+    return result;
+}
+
+Mesh unit_sphere(std::uint32_t divisions) {
+    Mesh mesh;
     for (const double x : {-1.0, 1.0})
         for (const double y : {-1.0, 1.0})
             for (const double z : {-1.0, 1.0}) {
                 std::array<Vec3, 3> face = {Vec3{x, 0, 0}, Vec3{0, y, 0}, Vec3{0, 0, z}};
                 if (x * y * z < 0)
                     std::swap(face[1], face[2]);
-                add_divided(mesh, sphere, face, divisions);
+                add_divided(mesh, face, divisions);
             }
+    return with_shared_corners(mesh);
 }
 
+void add_copy(Mesh& mesh, const Mesh& part, double scale, Vec3 shift) {
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    for (const Vec3& point : part.positions)
+        add_corner(mesh, scale * point + shift);
+    for (const std::uint32_t corner : part.position_indices)
+        mesh.position_indices.push_back(first + corner);
+}
+
+/// Adds a copy of the unit sphere for the sphere and for each on it; the axis points away from the
+/// one that it sits on.
 void add_flake(
     Mesh& mesh,
+    const Mesh& unit_sphere,
     const Sphere& sphere,
     Vec3 axis,
-    std::uint32_t generations,
-    std::uint32_t divisions) {
-    add_sphere(mesh, sphere, divisions);
+    std::uint32_t generations) {
+    add_copy(mesh, unit_sphere, sphere.radius, sphere.center);
     if (generations == 0)
         return;
     const auto [right, forward] = across(axis);
-    // Six round the equator, three above it; none where the parent is.
+    // Six round the equator and three above it, where the parent is not.
     for (std::size_t i = 0; i < 9; ++i) {
         const double latitude = i < 6 ? 0 : 55;
-        const double longitude = i < 6 ? degrees(i, 6) : degrees(2 * (i - 6) + 1, 6);
+        const double longitude = i < 6 ? degrees(i, 6) : degrees(2 * i + 1, 6);
         const Vec3 direction = sin_degrees(latitude) * axis
             + cos_degrees(latitude)
                 * (cos_degrees(longitude) * right + sin_degrees(longitude) * forward);
-        const Sphere child = {
-            sphere.center + (4.0 / 3 * sphere.radius) * direction, sphere.radius / 3};
-        add_flake(mesh, child, direction, generations - 1, divisions);
+        const Vec3 center = sphere.center + (4.0 / 3 * sphere.radius) * direction;
+        add_flake(mesh, unit_sphere, {center, sphere.radius / 3}, direction, generations - 1);
     }
 }
 
@@ -114,7 +142,7 @@ void add_column(Mesh& mesh, Vec3 foot, double height, std::size_t segments) {
 
 Mesh tessellated(const Sphereflake& flake) {
     Mesh mesh;
-    add_flake(mesh, {{0, 0, 0}, 0.5}, {0, 0, 1}, flake.generations, flake.divisions);
+    add_flake(mesh, unit_sphere(flake.divisions), {{0, 0, 0}, 0.5}, {0, 0, 1}, flake.generations);
     return mesh;
 }
 
@@ -268,11 +296,7 @@ void add_model(Mesh& mesh, const Mesh& part, double size, Vec3 place) {
     const double scale = size / (box.upper.x - box.lower.x);
     const Vec3 foot = {
         (box.lower.x + box.upper.x) / 2, box.lower.y, (box.lower.z + box.upper.z) / 2};
-    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-    for (const Vec3& point : part.positions)
-        add_corner(mesh, place + scale * (point - foot));
-    for (const std::uint32_t corner : part.position_indices)
-        mesh.position_indices.push_back(first + corner);
+    add_copy(mesh, part, scale, place - scale * foot);
 }
 
 void round_to_floats(Mesh& mesh) {

@@ -17,7 +17,7 @@ namespace {
 
 using Maker = std::unique_ptr<RayIndex> (*)(const Scene& scene);
 
-/// Every index that there is: a further one is a line here.
+/// Every index that there is, the usual one first: a further one is a line here.
 const std::vector<std::pair<std::string, Maker>>& makers() {
     static const std::vector<std::pair<std::string, Maker>> all = {
         {"grid",

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include <embree3/rtcore.h>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -28,8 +29,8 @@ private:
     std::size_t count_ = 0;
 };
 
-std::string builds_table(const std::vector<SceneMeasurement>& scenes, std::size_t threads) {
-    std::string text = fmt::format("Builds, threads: {}\n", threads);
+std::string builds_table(const std::vector<SceneMeasurement>& scenes) {
+    std::string text = "builds\n";
     text += fmt::format(
         "  {:<12} {:>10}  {:<14} {:>8} {:>12}\n",
         "scene",
@@ -153,7 +154,14 @@ Json as_json(const SceneMeasurement& scene) {
 
 std::string
 as_text(const std::vector<SceneMeasurement>& scenes, const RaysBenchSettings& settings) {
-    std::string text = builds_table(scenes, settings.threads);
+    std::string text = fmt::format(
+        "{} and Embree {}{}, threads: {}, median of {}\n\n",
+        settings.index,
+        RTC_VERSION_STRING,
+        settings.edges == EmbreeEdges::robust ? " robust" : "",
+        settings.threads,
+        settings.runs);
+    text += builds_table(scenes);
     for (const std::string& kind : settings.rays)
         text += rays_table(scenes, kind, settings);
     return text;
@@ -164,6 +172,8 @@ as_json(const std::vector<SceneMeasurement>& scenes, const RaysBenchSettings& se
     Json json = {
         {"version", 1},
         {"index", settings.index},
+        {"embree", RTC_VERSION_STRING},
+        {"embree_settings", settings.embree},
         {"threads", settings.threads},
         {"runs", settings.runs},
         {"raster", settings.raster},

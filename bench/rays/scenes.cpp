@@ -25,7 +25,7 @@ folder_of_environment(const char* variable, const std::filesystem::path& usual) 
 }
 
 /// A square picture of what lies round the target, from the eye; half_field is half its width at
-/// the distance 1. z is up where the third number of up says so.
+/// the distance 1.
 Camera camera_at(Vec3 eye, Vec3 target, double half_field, Vec3 up = {0, 1, 0}) {
     const Vec3 forward = normalized(target - eye);
     const Vec3 right = half_field * normalized(cross(forward, up));
@@ -75,14 +75,14 @@ std::optional<Scene> bunny(BenchSize) {
 }
 
 std::optional<Scene> flake(const Sphereflake& size) {
-    const Camera camera = camera_at({2.1, 1.3, 1.7}, {0, 0, 0}, 0.38, {0, 0, 1});
+    const Camera camera = camera_at({2.1, 1.3, 1.7}, {0, 0, 0.06}, 0.34, {0, 0, 1});
     return scene_of(tessellated(size), camera, {4, 3, 2});
 }
 
 std::optional<Scene> hall(BenchSize size) {
     return scene_of(
         hall_mesh(size == BenchSize::full ? 128 : 24),
-        camera_at({-28, 5, -8}, {10, 6, 4}, 0.7),
+        camera_at({-28, 5, -9}, {10, 6, 6}, 0.7),
         {2.5, 14, 3});
 }
 
@@ -93,22 +93,22 @@ std::optional<Scene> stadium(BenchSize size) {
     Mesh mesh = stadium_mesh(size == BenchSize::full ? 2000 : 200);
     const Vec3 place = {3, 0, 2};
     add_model(mesh, *teapot, 0.3, place);
-    const Vec3 middle = place + Vec3{0, 0.07, 0};
+    const Vec3 middle = place + Vec3{0, 0.09, 0};
     return scene_of(
-        std::move(mesh), camera_at(middle + Vec3{0.3, 0.25, 0.6}, middle, 0.4), {40, 50, 30});
+        std::move(mesh), camera_at(middle + Vec3{0.2, 0.07, 0.5}, middle, 0.4), {40, 50, 30});
 }
 
 std::optional<Scene> mountain(BenchSize size) {
     return scene_of(
         mountain_mesh(size == BenchSize::full ? 512 : 64),
-        camera_at({0.4, 0.9, 2.2}, {0, 0, 0.1}, 0.45),
+        camera_at({0.4, 1.1, 1.9}, {0.05, 0.05, 0.05}, 0.36),
         {2, 1.5, 0.5});
 }
 
 std::optional<Scene> tree(BenchSize size) {
     return scene_of(
         tree_mesh(size == BenchSize::full ? 9 : 6),
-        camera_at({8, 6, 16}, {0, 5, 0}, 0.42),
+        camera_at({8, 7, 16}, {0, 5, 0}, 0.36),
         {15, 25, 10});
 }
 
