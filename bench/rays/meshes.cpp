@@ -18,11 +18,27 @@ namespace vera {
 
 namespace {
 
-/// Two unit vectors that make a right angle with the direction and with each other.
-std::array<Vec3, 2> across(Vec3 direction) {
+/// Two unit vectors that make a right angle with a direction and with each other.
+struct Across {
+    Vec3 right;
+    Vec3 forward;
+};
+
+Across across(Vec3 direction) {
     const Vec3 other = std::abs(direction.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
-    const Vec3 first = normalized(cross(direction, other));
-    return {first, cross(direction, first)};
+    const Vec3 right = normalized(cross(direction, other));
+    return {right, cross(direction, right)};
+}
+
+/// The unit vector at an angle from the first of the two.
+Vec3 turned(const Across& plane, double angle) {
+    return cos_degrees(angle) * plane.right + sin_degrees(angle) * plane.forward;
+}
+
+/// The direction bent away from itself by an angle, to the side that another angle gives.
+Vec3 bent(Vec3 direction, double angle, double turn) {
+    return normalized(
+        cos_degrees(angle) * direction + sin_degrees(angle) * turned(across(direction), turn));
 }
 
 double degrees(std::size_t i, std::size_t count) {
@@ -96,14 +112,11 @@ void add_flake(
     add_copy(mesh, unit_sphere, sphere.radius, sphere.center);
     if (generations == 0)
         return;
-    const auto [right, forward] = across(axis);
     // Six round the equator and three above it, where the parent is not.
     for (std::size_t i = 0; i < 9; ++i) {
-        const double latitude = i < 6 ? 0 : 55;
-        const double longitude = i < 6 ? degrees(i, 6) : degrees(2 * i + 1, 6);
-        const Vec3 direction = sin_degrees(latitude) * axis
-            + cos_degrees(latitude)
-                * (cos_degrees(longitude) * right + sin_degrees(longitude) * forward);
+        const double from_pole = i < 6 ? 90 : 35;
+        const double turn = i < 6 ? degrees(i, 6) : degrees(2 * i + 1, 6);
+        const Vec3 direction = bent(axis, from_pole, turn);
         const Vec3 center = sphere.center + (4.0 / 3 * sphere.radius) * direction;
         add_flake(mesh, unit_sphere, {center, sphere.radius / 3}, direction, generations - 1);
     }
@@ -216,30 +229,20 @@ void add_leaf(Mesh& mesh, Vec3 from, Vec3 direction, double length) {
     add_triangle(mesh, left_side, right_side, tip);
 }
 
-/// The direction bent away from itself by an angle, to the side that another angle gives.
-Vec3 bent(Vec3 direction, double angle, double turn) {
-    const auto [right, forward] = across(direction);
-    return normalized(
-        cos_degrees(angle) * direction
-        + sin_degrees(angle) * (cos_degrees(turn) * right + sin_degrees(turn) * forward));
-}
-
 void add_branch(Mesh& mesh, const Branch& branch, std::uint32_t forks) {
     constexpr std::size_t sides = 8;
-    const auto [right, forward] = across(branch.direction);
+    const Across round = across(branch.direction);
     const Vec3 to = branch.from + branch.length * branch.direction;
     add_lattice(mesh, sides, 1, [&](std::size_t i, std::size_t j) {
-        const double angle = degrees(i, sides);
         const double radius = j == 0 ? branch.radius : 0.7 * branch.radius;
-        return (j == 0 ? branch.from : to)
-            + radius * (cos_degrees(angle) * right + sin_degrees(angle) * forward);
+        return (j == 0 ? branch.from : to) + radius * turned(round, degrees(i, sides));
     });
     const auto part = [&](std::uint64_t sample) { return random_part(7, branch.number, sample); };
     if (forks == 0) {
         for (std::uint64_t i = 0; i < 4; ++i)
             add_leaf(
                 mesh,
-                branch.from + (part(3 * i)) * (to - branch.from),
+                branch.from + part(3 * i) * (to - branch.from),
                 bent(branch.direction, 30 + 50 * part(3 * i + 1), 360 * part(3 * i + 2)),
                 0.12);
         return;
@@ -277,7 +280,8 @@ Mesh stadium_mesh(std::size_t segments) {
         {{0, 0}, {0.55, 0}, {0.6, 0.8}, {0.95, 0}}};
     add_lattice(mesh, segments, 4 * rows, [&](std::size_t i, std::size_t j) {
         const auto& [out, up] = profile[j % 4];
-        const auto row = static_cast<double>(j / 4);
+        const std::size_t row_number = j / 4;
+        const auto row = static_cast<double>(row_number);
         const double from_ground = (row + out) / static_cast<double>(rows);
         const double height = 2 + 34 * (row + up) / static_cast<double>(rows);
         const double angle = degrees(i, segments);

@@ -53,7 +53,7 @@ std::string builds_table(const std::vector<SceneMeasurement>& scenes) {
 std::string row(const std::string& name, const RaysMeasurement& rays) {
     const EmbreeRate& embree = best(rays);
     return fmt::format(
-        "  {:<12} {:>9} {:>8.2f} {:>8.2f} {:>8.2f}  {:<30} {:>7.3f} {:>7.3f}  {:>9.1e}\n",
+        "  {:<12} {:>9} {:>8.3g} {:>8.3g} {:>8.3g}  {:<30} {:>7.3g} {:>7.3g}  {:>9.1e}\n",
         name,
         rays.count,
         rays.ours.median,
@@ -88,7 +88,7 @@ std::string rows(
     }
     if (ours.count() > 1)
         text += fmt::format(
-            "  {:<81} {:>7.3f} {:>7.3f}\n", "geometric mean", ours.value(), whole.value());
+            "  {:<81} {:>7.3g} {:>7.3g}\n", "geometric mean", ours.value(), whole.value());
     return text;
 }
 
