@@ -16,6 +16,7 @@
 #include <cstdio>
 #include <exception>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -120,6 +121,8 @@ int run(const Request& request) {
     for (const std::string& name : request.settings.scenes)
         if (auto scene = measured_scene(name, request.settings))
             scenes.push_back(std::move(*scene));
+    if (scenes.empty())
+        throw std::runtime_error("no scene is there; set VERA_MODELS and VERA_SCENES, or --meshes");
     fmt::print("{}", as_text(scenes, request.settings));
     if (json) {
         json->write(as_json(scenes, request.settings));

@@ -30,7 +30,7 @@ private:
 };
 
 std::string builds_table(const std::vector<SceneMeasurement>& scenes) {
-    std::string text = "builds\n";
+    std::string text = "builds; bytes are those beside the scene\n";
     text += fmt::format(
         "  {:<12} {:>10}  {:<14} {:>8} {:>12}\n",
         "scene",
@@ -109,9 +109,10 @@ std::string rays_table(
         "ratio",
         "at once",
         "disagree");
-    for (const BenchSceneKind scene_kind : {BenchSceneKind::triangles, BenchSceneKind::spheres})
-        text += rows(scenes, scene_kind, kind);
-    return text;
+    const std::string meshes = rows(scenes, BenchSceneKind::triangles, kind);
+    const std::string spheres = rows(scenes, BenchSceneKind::spheres, kind);
+    // Such rays there may be none of: shadow rays where nothing is hit.
+    return meshes.empty() && spheres.empty() ? std::string() : text + meshes + spheres;
 }
 
 using Json = nlohmann::ordered_json;
