@@ -124,10 +124,9 @@ HWY_INLINE hn::Mask<D> meets_there(
     const auto met = hn::Or(hn::Ge(lowest, hn::Neg(error)), hn::Le(highest, error));
     const V size = hn::Abs(place.speed);
     const V t_size = hn::Mul(place.depth, hn::CopySignToAbs(hn::Set(d, 1), place.speed));
-    const V deep =
-        hn::Mul(hn::Set(d, 8 * rays.slack), hn::Mul(place.largest, place.largest));
-    const auto behind_start = hn::Ge(
-        hn::Add(t_size, deep), hn::Neg(hn::Mul(hn::Set(d, rays.slack), size)));
+    const V deep = hn::Mul(hn::Set(d, 8 * rays.slack), hn::Mul(place.largest, place.largest));
+    const auto behind_start =
+        hn::Ge(hn::Add(t_size, deep), hn::Neg(hn::Mul(hn::Set(d, rays.slack), size)));
     const auto before_limit = hn::Le(hn::Sub(t_size, deep), hn::Mul(rays.limit, size));
     return hn::And(met, hn::And(behind_start, before_limit));
 }
@@ -157,10 +156,10 @@ HWY_INLINE hn::Mask<D> meets_quadrangle(D d, const TestedRays<D>& rays, const hn
     const V one = hn::Set(d, 1);
     const V x = values[9];
     const V y = values[10];
-    const V side = hn::Sub(
-        hn::Mul(hn::Sub(x, one), place.v), hn::Mul(y, hn::Sub(place.u, place.speed)));
-    const V other = hn::Sub(
-        hn::Mul(hn::Sub(y, one), place.u), hn::Mul(x, hn::Sub(place.v, place.speed)));
+    const V side =
+        hn::Sub(hn::Mul(hn::Sub(x, one), place.v), hn::Mul(y, hn::Sub(place.u, place.speed)));
+    const V other =
+        hn::Sub(hn::Mul(hn::Sub(y, one), place.u), hn::Mul(x, hn::Sub(place.v, place.speed)));
     const V sizes = hn::Add(one, hn::Add(hn::Abs(x), hn::Abs(y)));
     const V error = hn::Mul(hn::Mul(hn::Set(d, 8 * rays.slack), place.largest), sizes);
     return meets_there(
@@ -196,10 +195,8 @@ HWY_INLINE hn::Mask<D> meets_cylinder(D d, const TestedRays<D>& rays, const hn::
     const V half = values[7];
     const V slack = hn::Set(d, 2 * rays.slack);
     const V one_up = hn::Set(d, up);
-    const V around =
-        hn::Sqrt(hn::Add(hn::Mul(radius, radius), hn::Mul(half, half)));
-    const auto round =
-        meets_ball(d, rays, values, hn::Add(hn::Mul(around, one_up), slack));
+    const V around = hn::Sqrt(hn::Add(hn::Mul(radius, radius), hn::Mul(half, half)));
+    const auto round = meets_ball(d, rays, values, hn::Add(hn::Mul(around, one_up), slack));
     // The distance of the ray's line from the axis is |to_center . across| / |across|, and |across|
     // the sine of the angle between them.
     const V to_center[3] = {
@@ -212,8 +209,8 @@ HWY_INLINE hn::Mask<D> meets_cylinder(D d, const TestedRays<D>& rays, const hn::
     const V sine_squared = dot3(across, across);
     const V sine = hn::Sqrt(sine_squared);
     const V apart = hn::Abs(dot3(to_center, across));
-    const V reach = hn::Add(
-        hn::Mul(sine, hn::Mul(hn::Add(radius, slack), one_up)), hn::Add(slack, slack));
+    const V reach =
+        hn::Add(hn::Mul(sine, hn::Mul(hn::Add(radius, slack), one_up)), hn::Add(slack, slack));
     const auto near_axis = hn::And(round, hn::Le(apart, reach));
 
     // Where the ray is within reach of the axis, from t = middle - chord to middle + chord, it must
@@ -245,8 +242,7 @@ HWY_INLINE hn::Mask<D>
 may_meet(D d, const TestedRays<D>& rays, ElementRecord::Kind kind, const hn::Vec<D>* values) {
     switch (kind) {
     case ElementRecord::Kind::sphere:
-        return meets_ball(
-            d, rays, values, hn::Add(values[3], hn::Set(d, 2 * rays.slack)));
+        return meets_ball(d, rays, values, hn::Add(values[3], hn::Set(d, 2 * rays.slack)));
     case ElementRecord::Kind::triangle:
         return meets_triangle(d, rays, values);
     case ElementRecord::Kind::quadrangle:

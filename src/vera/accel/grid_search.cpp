@@ -10,7 +10,9 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "vera/accel/grid_search.cpp"
 #include <hwy/foreach_target.h>
+// Behind the line above, which includes this file once for each instruction set.
 #include "vera/accel/element_tests-inl.h"
+
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();

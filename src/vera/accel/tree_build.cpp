@@ -116,9 +116,8 @@ Cut best_cut(const Bins& bins, const Binning& binning) {
         for (std::size_t i = bin_count; i-- > 1;) {
             include(right.box, bins[axis][i].box);
             right.count += bins[axis][i].count;
-            right_cost[i] = right.count > 0
-                ? surface(right.box) * static_cast<float>(right.count)
-                : infinite;
+            right_cost[i] =
+                right.count > 0 ? surface(right.box) * static_cast<float>(right.count) : infinite;
         }
         Bin left;
         for (std::size_t i = 1; i < bin_count; ++i) {
@@ -126,8 +125,7 @@ Cut best_cut(const Bins& bins, const Binning& binning) {
             left.count += bins[axis][i - 1].count;
             if (left.count == 0)
                 continue;
-            const float cost =
-                surface(left.box) * static_cast<float>(left.count) + right_cost[i];
+            const float cost = surface(left.box) * static_cast<float>(left.count) + right_cost[i];
             if (cost < best_cost) {
                 best_cost = cost;
                 best = {axis, i};
@@ -311,8 +309,7 @@ private:
                 deferred->push_back({number, i, depth + 1, child});
                 continue;
             }
-            const std::size_t below =
-                build_node(output, child, depth + 1, deferred, deferred_size);
+            const std::size_t below = build_node(output, child, depth + 1, deferred, deferred_size);
             output.nodes[number].first[i] = static_cast<std::uint32_t>(below);
         }
         return number;
@@ -347,8 +344,7 @@ private:
         output.rows.resize(first + 1 + values);
         ++output.blocks;
         for (std::size_t i = 0; i < block_width; ++i) {
-            const Reference& reference =
-                references_[range.first + std::min(i, range.size() - 1)];
+            const Reference& reference = references_[range.first + std::min(i, range.size() - 1)];
             const Element element = element_at(*tree_.geometry, reference.element);
             const ElementRecord record = element_record(tree_, element, box_of(reference));
             output.rows[first][i] = std::bit_cast<float>(reference.element);
@@ -410,12 +406,10 @@ BoxF rounded(const Box3& box) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const auto lower = static_cast<float>(box.lower[axis]);
         const auto upper = static_cast<float>(box.upper[axis]);
-        result.lower[axis] = static_cast<double>(lower) > box.lower[axis]
-            ? std::nextafter(lower, -infinite)
-            : lower;
-        result.upper[axis] = static_cast<double>(upper) < box.upper[axis]
-            ? std::nextafter(upper, infinite)
-            : upper;
+        result.lower[axis] =
+            static_cast<double>(lower) > box.lower[axis] ? std::nextafter(lower, -infinite) : lower;
+        result.upper[axis] =
+            static_cast<double>(upper) < box.upper[axis] ? std::nextafter(upper, infinite) : upper;
     }
     return result;
 }

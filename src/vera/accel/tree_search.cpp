@@ -9,7 +9,9 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "vera/accel/tree_search.cpp"
 #include <hwy/foreach_target.h>
+// Behind the line above, which includes this file once for each instruction set.
 #include "vera/accel/element_tests-inl.h"
+
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
@@ -150,12 +152,12 @@ HWY_INLINE std::uint32_t met_elements(
     return met & ((std::uint32_t{1} << child.count) - 1);
 }
 
-inline std::uint32_t element_number(const GeometryTree& tree, const TreeChild& child, std::size_t i) {
+inline std::uint32_t
+element_number(const GeometryTree& tree, const TreeChild& child, std::size_t i) {
     return std::bit_cast<std::uint32_t>(tree.rows[child.first][i]);
 }
 
-void visit_block_alone(
-    PacketQuery& query, Frame& frame, const TreeChild& child, std::size_t lane) {
+void visit_block_alone(PacketQuery& query, Frame& frame, const TreeChild& child, std::size_t lane) {
     const GeometryTree& tree = tree_of(frame);
     if (element_kind(child) != ElementRecord::Kind::call)
         query.counts.tests += child.count;
@@ -250,9 +252,8 @@ HWY_INLINE void fill_box_rays(const Frame& frame, LaneMask lanes, BoxRays& rays)
     for (std::size_t axis = 0; axis < 3; ++axis) {
         LaneMask backward = 0;
         for (std::size_t i = 0; i < packet_size; i += hn::Lanes(d))
-            backward |= bits_of(
-                            d, hn::Lt(hn::LoadU(d, frame.inverse[axis].data() + i), hn::Zero(d)))
-                << i;
+            backward |=
+                bits_of(d, hn::Lt(hn::LoadU(d, frame.inverse[axis].data() + i), hn::Zero(d))) << i;
         rays.backward[axis] = (backward & lanes) != 0;
         rays.one_octant = rays.one_octant && ((backward & lanes) == 0 || (~backward & lanes) == 0);
     }
@@ -283,8 +284,7 @@ HWY_INLINE LaneMask meeting_child(
                 last = hn::IfThenElse(backward, lower, last);
             }
             near = hn::Max(
-                near,
-                hn::MulAdd(first, inverse, hn::LoadU(d, rays.near_offset[axis].data() + i)));
+                near, hn::MulAdd(first, inverse, hn::LoadU(d, rays.near_offset[axis].data() + i)));
             far = hn::Min(
                 far, hn::MulAdd(last, inverse, hn::LoadU(d, rays.far_offset[axis].data() + i)));
         }
@@ -352,8 +352,7 @@ void search_together(PacketQuery& query, Frame& frame, LaneMask lanes) {
     while (true) {
         if (std::popcount(lanes) <= few_lanes) {
             for (LaneMask rest = lanes; rest != 0; rest &= rest - 1)
-                search_alone(
-                    query, frame, static_cast<std::size_t>(std::countr_zero(rest)), next);
+                search_alone(query, frame, static_cast<std::size_t>(std::countr_zero(rest)), next);
         } else if (next.kind == ChildKind::node) {
             query.counts.cells += static_cast<std::uint64_t>(std::popcount(lanes));
             const WideNode& node = tree.nodes[next.first];
@@ -375,8 +374,7 @@ void search_together(PacketQuery& query, Frame& frame, LaneMask lanes) {
                 met[place] = child;
             }
             for (std::size_t i = 0; i < count; ++i)
-                stack.push_back(
-                    {child_of(node, met[i].child), met[i].lanes, near[met[i].child]});
+                stack.push_back({child_of(node, met[i].child), met[i].lanes, near[met[i].child]});
         } else {
             visit_block(query, frame, next, lanes);
         }

@@ -23,8 +23,7 @@ struct ChildKind {
 };
 
 constexpr std::uint8_t block_kind(ElementRecord::Kind kind) {
-    return static_cast<std::uint8_t>(
-        ChildKind::first_block + static_cast<std::uint8_t>(kind));
+    return static_cast<std::uint8_t>(ChildKind::first_block + static_cast<std::uint8_t>(kind));
 }
 
 /// A node: the boxes of its children, axis by axis, in local coordinates, and where these are. The
@@ -32,7 +31,8 @@ constexpr std::uint8_t block_kind(ElementRecord::Kind kind) {
 struct alignas(64) WideNode {
     std::array<std::array<float, tree_width>, 3> lower;
     std::array<std::array<float, tree_width>, 3> upper;
-    std::array<std::uint32_t, tree_width> first; ///< number of the node, or of the block's first row
+    std::array<std::uint32_t, tree_width>
+        first; ///< number of the node, or of the block's first row
     std::array<std::uint8_t, tree_width> kind;
     std::array<std::uint8_t, tree_width> count; ///< elements of the block
 };
