@@ -21,7 +21,7 @@ struct IndexRequest {
 /// --index
 void add_index_options(CLI::App& command, IndexRequest& request);
 
-/// The index asked for; auto is the tree of grids.
+/// The index asked for; auto is the wide hierarchy of boxes.
 std::unique_ptr<RayIndex> scene_index(
     const Scene& scene,
     const IndexRequest& request,
