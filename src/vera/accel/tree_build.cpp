@@ -355,9 +355,12 @@ private:
     }
 
     static Box3 box_of(const Reference& reference) {
-        const auto& lower = reference.box.lower;
-        const auto& upper = reference.box.upper;
-        return {{lower[0], lower[1], lower[2]}, {upper[0], upper[1], upper[2]}};
+        Box3 box;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            box.lower[axis] = static_cast<double>(reference.box.lower[axis]);
+            box.upper[axis] = static_cast<double>(reference.box.upper[axis]);
+        }
+        return box;
     }
 
     /// The subtrees behind the top, in their order.
