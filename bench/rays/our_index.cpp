@@ -3,6 +3,7 @@
 
 #include "vera/accel/brute_force.h"
 #include "vera/accel/grid_tree.h"
+#include "vera/accel/wide_bvh.h"
 #include "vera/base/check.h"
 
 #include <limits>
@@ -22,6 +23,8 @@ const std::vector<std::pair<std::string, Maker>>& makers() {
     static const std::vector<std::pair<std::string, Maker>> all = {
         {"grid",
          [](const Scene& scene) -> std::unique_ptr<RayIndex> { return make_grid_tree(scene); }},
+        {"bvh",
+         [](const Scene& scene) -> std::unique_ptr<RayIndex> { return make_wide_bvh(scene); }},
         {"brute", make_brute_force}};
     return all;
 }
