@@ -370,6 +370,18 @@ TEST_F(ImageFile, ThatPromisesMorePixelsThanItCanHoldIsRefusedBeforeTheyTakeMemo
         EXPECT_THAT(
             error.what(), HasSubstr("cannot hold the 65280 x 65280 pixels that its header"));
     }
+
+    write_image(blank_image(5, 5, SampleType::float32), folder_ / "a", ImageFileFormat::exr_half);
+    bytes = content(folder_ / "a");
+    const std::size_t window = bytes.find("dataWindow\0box2i\0\x10\0\0\0"s);
+    ASSERT_NE(window, std::string::npos);
+    bytes.replace(window + 21 + 8, 4, "\xff\xff\x03\x00"s); // the last column
+    try {
+        decoded_image(as_bytes(bytes), "a.exr");
+        FAIL();
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("cannot hold the 262144 x 5 pixels that its header"));
+    }
 }
 
 TEST(DecodedImage, StretchesAPpmToItsWhite) {

@@ -16,6 +16,7 @@
 
 #include <ImfChannelList.h>
 #include <ImfChromaticities.h>
+#include <ImfCompression.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfIO.h>
@@ -259,6 +260,16 @@ std::size_t side(int first, int last) {
     return static_cast<std::size_t>(std::int64_t{last} - first + 1);
 }
 
+/// How few bits stand for a pixel of three channels before they are deflated, or packed by less.
+std::size_t pixel_bits(const Imf::Header& header) {
+    const Imf::Compression compression = header.compression();
+    // These lose what hardly shows, and keep of 64 pixels perhaps one number a channel.
+    if (compression == Imf::DWAA_COMPRESSION || compression == Imf::DWAB_COMPRESSION)
+        return 1;
+    constexpr std::size_t smallest_sample = 16;
+    return channels.size() * smallest_sample;
+}
+
 } // namespace
 
 void write_exr(
@@ -288,12 +299,10 @@ Image read_exr(std::span<const std::byte> bytes, const std::string& name) {
     const Imath::Box2i window = input->header().dataWindow();
     const std::size_t width = side(window.min.x, window.max.x);
     const std::size_t height = side(window.min.y, window.max.y);
-    // Its lossy methods keep one number for 64 pixels and then deflate: to be safe, a bit.
-    constexpr std::size_t pixel_bits = 1;
-    check_plausible(width, height, pixel_bits, bytes.size(), name);
     for (const char* channel : channels)
         if (input->header().channels().findChannel(channel) == nullptr)
             throw_damaged(name, std::string("it has no channel ") + channel);
+    check_plausible(width, height, pixel_bits(input->header()), bytes.size(), name);
     Image image = blank_image(width, height, SampleType::float32);
     const float* samples = std::get<std::vector<float>>(image.samples).data();
     try {
