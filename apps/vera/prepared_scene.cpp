@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "prepared_scene.h"
 
+#include "vera/formats/item_place.h"
 #include "vera/formats/read_scene.h"
+#include "vera/formats/source_text.h"
 #include "vera/scene/framing.h"
 #include "vera/scene/inspection.h"
+
+#include <system_error>
 
 #include <CLI/CLI.hpp>
 
@@ -17,9 +21,20 @@ constexpr double default_margin = 0.05;
 Diagnostic warning(const Scene& scene, const Finding& finding) {
     Diagnostic diagnostic;
     diagnostic.severity = Severity::warning;
-    diagnostic.place = finding.place;
-    if (diagnostic.place.file.empty() && !scene.files.empty())
+    if (finding.item && finding.item->file < scene.files.size()) {
+        const Item& item = *finding.item;
+        const std::string& file = scene.files[item.file];
+        try {
+            const SourceText text(file);
+            return diagnostic_at(
+                Severity::warning, item_place(item, text), finding.problem, finding.remedy);
+        } catch (const std::system_error&) {
+            // Standard input cannot be read again.
+            diagnostic.place = {file, item.line, 1};
+        }
+    } else if (!scene.files.empty()) {
         diagnostic.place.file = scene.files.front();
+    }
     diagnostic.problem = finding.problem;
     diagnostic.remedy = finding.remedy;
     return diagnostic;

@@ -34,6 +34,33 @@ TEST(CheckCommand, WarnsOfASceneTextWithoutCameraUnlessFramingIsAskedFor) {
     EXPECT_EQ(run_vera(folder, "check a.vera --frame 0.1").err, "");
 }
 
+TEST(CheckCommand, ShowsWhatTheViewPointLiesInAndEachUnusedMaterialOnce) {
+    const ScratchFolder folder;
+    folder.write("a.vera", std::string(small_scene) + "CM grey  SP 0 2 8 3\n  MA blue DRF 0 0 1\n");
+    EXPECT_EQ(
+        run_vera(folder, "check a.vera").err,
+        "a.vera:8:6: warning: material 'blue' is never used\n"
+        "      MA blue DRF 0 0 1\n"
+        "         ^~~~\n"
+        "a.vera:7:10: warning: the view point lies inside this sphere\n"
+        "    CM grey  SP 0 2 8 3\n"
+        "             ^~\n"
+        "  move the view point, or remove what surrounds it\n");
+    const ProgramRun piped = run_vera(folder, "check - < a.vera");
+    EXPECT_NE(piped.err.find("<standard input>:7:1: warning: the view point"), std::string::npos)
+        << piped.err;
+    folder.write(
+        "b.nff",
+        "v\nfrom 0 0 9\nat 0 0 0\nup 0 1 0\nangle 40\nhither 1\nresolution 9 9\nl 9 9 9\n"
+        "f 1 1 1 1 0 0 0 0\nf 1 1 0 1 0 0 0 0\n s 0 0 9 1\n");
+    EXPECT_EQ(
+        run_vera(folder, "check b.nff").err,
+        "b.nff:11:2: warning: the view point lies inside this sphere\n"
+        "     s 0 0 9 1\n"
+        "     ^\n"
+        "  move the view point, or remove what surrounds it\n");
+}
+
 TEST(CheckCommand, GivesDiagnosticsAsJson) {
     const ScratchFolder folder;
     folder.write("a.vera", "PROJECTION 0 2 8  -2 0 0  2 0 0  -2 4 0\nSP 0 1 blue 1\n");

@@ -140,6 +140,14 @@ const std::vector<Mistake>& mistakes() {
      "test.vera:2:4: warning: material 'n' is never used\n"
      "    MA n DRF 1 1 1\n"
      "       ^\n"},
+    {"AMaterialThatNoSurfaceHas",
+     "CM n\n"
+            "CM m SP 0 0 0 1\n"
+            " MA n DRF 1 1 1",
+     "test.vera:4:5: warning: material 'n' is never used\n"
+     "     MA n DRF 1 1 1\n"
+     "        ^\n"
+     "  no surface follows the CM at test.vera:2\n"},
     {"AnUnusedSubscene",
      "SCENE s SP 0 0 0 1 LI 0 0 0 1 1 1 1",
      "test.vera:2:7: warning: subscene 's' is never used\n"

@@ -177,8 +177,9 @@ TEST(Inspection, FindsWhatMakesAPictureBlack) {
     EXPECT_TRUE(kinds(scene).empty());
 
     scene.materials.push_back({"grey", {}, {}, {}, {}, {}, {}, 1, 1});
-    EXPECT_EQ(kinds(scene), std::vector{Finding::Kind::unused_material});
+    EXPECT_EQ(used_materials(scene), std::vector{false});
     scene.geometry.items[0].material = MaterialId{0};
+    EXPECT_EQ(used_materials(scene), std::vector{true});
     EXPECT_TRUE(kinds(scene).empty());
 
     scene.camera->viewpoint = {5, 3, -40};
@@ -204,7 +205,8 @@ TEST(Inspection, FindsWhatTheViewPointLiesIn) {
     ASSERT_EQ(findings.size(), 1U);
     EXPECT_EQ(findings[0].kind, Finding::Kind::viewpoint_in_object);
     EXPECT_EQ(findings[0].problem, "the view point lies inside this sphere");
-    EXPECT_EQ(findings[0].place, (SourcePlace{"ball.vera", 7, 1}));
+    ASSERT_TRUE(findings[0].item);
+    EXPECT_EQ(findings[0].item->line, 7U);
 }
 
 } // namespace

@@ -96,7 +96,7 @@ private:
     void check_inner_point(const Section& section);
     void check_materials(const std::vector<std::size_t>& callees_first);
     std::vector<std::size_t> check_calls();
-    WordPlace place_of(const Item& item) const;
+    void warn_of_idle_materials();
 
     Complaints& complaints_;
     SceneLimits limits_;

@@ -2,67 +2,16 @@
 // The checks of SceneBuilder that need the whole scene or subscene.
 #include "vera/formats/faces.h"
 #include "vera/formats/inner_point_check.h"
+#include "vera/formats/item_place.h"
 #include "vera/formats/scene_builder.h"
-#include "vera/formats/vera_keywords.h"
 #include "vera/formats/word_reader.h"
+#include "vera/scene/inspection.h"
 
 #include <algorithm>
 
 #include <fmt/format.h>
 
 namespace vera {
-
-namespace {
-
-/// Where a line begins, counted from 1; the text's end when it has fewer.
-std::size_t line_offset(std::string_view text, std::uint64_t line) {
-    std::size_t offset = 0;
-    for (std::uint64_t i = 1; i < line; ++i) {
-        const std::size_t end = text.find('\n', offset);
-        if (end == std::string_view::npos)
-            return text.size();
-        offset = end + 1;
-    }
-    return offset;
-}
-
-bool makes(std::optional<Statement> statement, ItemKind kind) {
-    switch (kind) {
-    case ItemKind::sphere:
-        return statement == Statement::sphere;
-    case ItemKind::triangle:
-        return statement == Statement::triangle || statement == Statement::quadrangle;
-    case ItemKind::polygon:
-        return statement == Statement::quadrangle || statement == Statement::polygon;
-    case ItemKind::patch:
-        return statement == Statement::patch;
-    case ItemKind::rotational_shape:
-        return statement == Statement::rotational_shape;
-    case ItemKind::mesh:
-        return statement == Statement::mesh;
-    case ItemKind::subscene_call:
-        return statement == Statement::subscene_call || statement == Statement::mesh;
-    }
-    return false;
-}
-
-} // namespace
-
-WordPlace SceneBuilder::place_of(const Item& item) const {
-    const SourceText& text = *texts_[item.file];
-    const std::size_t begin = line_offset(text.text(), item.line);
-    std::string_view line = text.text().substr(begin);
-    line = line.substr(0, line.find('\n'));
-    // Items keep no column: the first word of the line that makes such an item is the likeliest.
-    for (std::size_t at = 0; at < line.size();) {
-        const std::size_t first = std::min(line.find_first_not_of(" \t\r", at), line.size());
-        const std::size_t last = std::min(line.find_first_of(" \t\r", first), line.size());
-        if (makes(statement_named(line.substr(first, last - first)), item.kind))
-            return {&text, begin + first, begin, item.line, last - first};
-        at = last;
-    }
-    return {&text, begin, begin, item.line, 1};
-}
 
 void SceneBuilder::check_inner_point(const Section& section) {
     if (!section.inner_point)
@@ -75,7 +24,7 @@ void SceneBuilder::check_inner_point(const Section& section) {
             const Item& item = geometry.items[i];
             return diagnostic_at(
                 Severity::warning,
-                place_of(item),
+                item_place(item, *texts_[item.file]),
                 "the inner point is on the wrong side of this face: all other faces with the "
                 "same inner point are on the other side",
                 "move IP to the inside of the solid");
@@ -146,7 +95,9 @@ std::vector<std::size_t> SceneBuilder::check_calls() {
                         break;
                 }
                 std::reverse(cycle.begin(), cycle.end());
-                complaints_.error(place_of(*item), cycle_problem(subscenes_, std::move(cycle)));
+                complaints_.error(
+                    item_place(*item, *texts_[item->file]),
+                    cycle_problem(subscenes_, std::move(cycle)));
             }
         }
     }
@@ -177,11 +128,27 @@ void SceneBuilder::check_materials(const std::vector<std::size_t>& callees_first
     const auto more = std::count_if(first + 1, geometry.items.end(), without);
     complaints_.warn(
         "things without material",
-        place_of(*first),
+        item_place(*first, *texts_[first->file]),
         more == 0 ? std::string("this has no material and gets DRF 0.7 0.7 0.7")
                   : fmt::format(
                       "this and {} more statements have no material and get DRF 0.7 0.7 0.7", more),
         "write CM and the name of a material before it");
+}
+
+/// Of materials that CM names, but with no surface behind it.
+void SceneBuilder::warn_of_idle_materials() {
+    const std::vector<bool> used = used_materials(scene_);
+    for (std::size_t i = 0; i < used.size(); ++i) {
+        const NameTable::Entry& entry = material_names_.entries()[i];
+        if (!used[i] && entry.definition && entry.use) {
+            const SourcePlace use = source_place(*entry.use);
+            complaints_.warn(
+                "unused materials",
+                *entry.definition,
+                fmt::format("material {} is never used", shown(entry.name)),
+                fmt::format("no surface follows the CM at {}:{}", use.file, use.line));
+        }
+    }
 }
 
 Scene SceneBuilder::finish() {
@@ -209,6 +176,7 @@ Scene SceneBuilder::finish() {
         });
     scene_.subscenes.assign(
         std::make_move_iterator(subscenes_.begin()), std::make_move_iterator(subscenes_.end()));
+    warn_of_idle_materials();
     return std::move(scene_);
 }
 

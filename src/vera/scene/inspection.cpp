@@ -12,8 +12,6 @@
 
 namespace vera {
 
-namespace {
-
 std::vector<bool> used_materials(const Scene& scene) {
     std::vector<bool> used(scene.materials.size(), false);
     const auto mark = [&](const Geometry& geometry) {
@@ -26,6 +24,8 @@ std::vector<bool> used_materials(const Scene& scene) {
         mark(subscene);
     return used;
 }
+
+namespace {
 
 bool has_light(const Scene& scene, const PictureSettings& settings, const std::vector<bool>& used) {
     for (const PointLight& light : scene.lights)
@@ -46,6 +46,14 @@ bool is_closed(const RotationalShape& shape) {
     return !shape.contour.empty()
         && (shape.contour.back().end == shape.start
             || (shape.start.r == 0 && shape.contour.back().end.r == 0));
+}
+
+/// A box round the mesh, found in a small part of the time that testing its triangles takes.
+Box3 bounds_of_positions(const Mesh& mesh) {
+    Box3 box;
+    for (const Vec3& position : mesh.positions)
+        box = grown(box, position);
+    return box;
 }
 
 /// Directions to the corners of a tetrahedron, turned so that no axis, edge or diagonal of what
@@ -83,8 +91,11 @@ const char* enclosing_kind(const Geometry& geometry, std::uint32_t i, Vec3 point
             : nullptr;
     }
     case ItemKind::mesh: {
-        const auto count = geometry.meshes[item.index].triangle_count();
-        return encloses(geometry, i, static_cast<std::uint32_t>(count), point) ? "mesh" : nullptr;
+        const Mesh& mesh = geometry.meshes[item.index];
+        const auto count = static_cast<std::uint32_t>(mesh.triangle_count());
+        return contains(bounds_of_positions(mesh), point) && encloses(geometry, i, count, point)
+            ? "mesh"
+            : nullptr;
     }
     case ItemKind::triangle:
     case ItemKind::polygon:
@@ -93,12 +104,6 @@ const char* enclosing_kind(const Geometry& geometry, std::uint32_t i, Vec3 point
         break;
     }
     return nullptr;
-}
-
-SourcePlace place_of(const Scene& scene, const Item& item) {
-    if (item.file >= scene.files.size() || item.line == 0)
-        return {};
-    return {scene.files[item.file], item.line, 1};
 }
 
 /// The first object found that the point lies in.
@@ -127,7 +132,7 @@ std::optional<Finding> enclosing_object(const Scene& scene, Vec3 viewpoint) {
             } else if (const char* kind = enclosing_kind(geometry, i, visit.point)) {
                 return Finding{
                     Finding::Kind::viewpoint_in_object,
-                    place_of(scene, item),
+                    item,
                     std::string("the view point lies inside this ") + kind,
                     "move the view point, or remove what surrounds it"};
             }
@@ -169,13 +174,6 @@ std::vector<Finding> inspect(const Scene& scene, const PictureSettings& settings
         if (auto finding = all_behind(scene, *scene.camera))
             findings.push_back(std::move(*finding));
     }
-    for (std::size_t i = 0; i < used.size(); ++i)
-        if (!used[i])
-            findings.push_back(
-                {Finding::Kind::unused_material,
-                 {},
-                 "material '" + scene.materials[i].name + "' is never used",
-                 "use it with CM " + scene.materials[i].name + ", or remove it"});
     return findings;
 }
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "vera/base/diagnostic.h"
 #include "vera/scene/scene.h"
 
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace vera {
@@ -13,15 +14,17 @@ struct Finding {
     enum class Kind {
         no_light,            ///< no light and nothing luminous: the picture would be black
         viewpoint_in_object, ///< the view point lies inside something closed
-        all_behind_viewer,   ///< no geometry before the view point
-        unused_material
+        all_behind_viewer    ///< no geometry before the view point
     };
 
     Kind kind = Kind::no_light;
-    SourcePlace place; ///< of the object in question, as far as it is known
+    std::optional<Item> item; ///< the object in question, where there is one
     std::string problem;
     std::string remedy;
 };
+
+/// Of each material, whether an item of the scene has it.
+std::vector<bool> used_materials(const Scene& scene);
 
 /// What can be said without the text of the scene, in the order of the kinds. Cheap: no index is
 /// built.
