@@ -3,6 +3,8 @@
 #include "vera/base/diagnostic.h"
 #include "vera/base/version.h"
 
+#include <cerrno>
+#include <cstdio>
 #include <new>
 #include <system_error>
 
@@ -68,5 +70,12 @@ int main(int argc, char** argv) {
     vera::add_render_command(app, console);
     vera::add_check_command(app, console);
     vera::add_info_command(app, console);
-    return static_cast<int>(run(app, console, argc, argv));
+    ExitCode code = run(app, console, argc, argv);
+    // What was printed may still be on its way to a disk that is full.
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+        const std::error_code error(errno, std::generic_category());
+        vera::print_error("cannot write standard output: " + error.message(), console);
+        code = ExitCode::machine_failed;
+    }
+    return static_cast<int>(code);
 }

@@ -77,7 +77,7 @@ void add_scene_options(CLI::App& command, SceneRequest& request) {
     command
         .add_option("--scene-format", request.format, "of the scene, where its name does not tell")
         ->type_name("vera|nff|obj|ply|stl")
-        ->check(CLI::IsMember({"vera", "nff", "obj", "ply", "stl"}));
+        ->check(CLI::IsMember({"vera", "nff", "obj", "ply", "stl"}).description(""));
     add_picture_options(command, request.picture);
 }
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/base/output_file.h"
+#include "vera/base/similar_words.h"
 #include "vera/base/version.h"
 #include "vera/formats/source_text.h"
 #include "vera/image/image_file.h"
 #include "vera/render/render_scene.h"
 
 #include <chrono>
+#include <filesystem>
 
 #include "command.h"
 #include "messages.h"
@@ -55,6 +57,16 @@ private:
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
+/// "did you mean 'a.png'? Else " for a name whose extension is like one of those that are known.
+std::string similar_output(const std::filesystem::path& output) {
+    const std::vector<std::string> extensions = {".png", ".exr", ".jpg", ".jpeg", ".ppm", ".pfm"};
+    const auto similar = most_similar(output.extension().string(), extensions);
+    if (!similar)
+        return {};
+    auto meant = output;
+    return fmt::format("did you mean '{}'? Else ", meant.replace_extension(*similar).string());
+}
+
 ImageFileFormat output_format(const Request& request) {
     if (!request.format.empty()) {
         if (const auto format = format_from_name(request.format))
@@ -67,8 +79,9 @@ ImageFileFormat output_format(const Request& request) {
     if (const auto format = format_from_extension(request.output))
         return *format;
     throw CommandLineError(fmt::format(
-        "cannot tell the format of '{}' by its name; give --format with one of {}",
+        "cannot tell the format of '{}' by its name; {}give --format with one of {}",
         request.output,
+        similar_output(request.output),
         format_names()));
 }
 
@@ -141,7 +154,7 @@ std::string as_text(const Report& report, const std::string& output) {
         "{}: {} view rays, {} for antialiasing, {} shadow, {} mirrored, {} refracted; {} to read, "
         "{} to "
         "index, {} to render",
-        output,
+        output == "-" ? "standard output" : output,
         counts.view_rays,
         counts.extra_view_rays + counts.probe_rays,
         counts.shadow_rays,

@@ -12,7 +12,7 @@ namespace vera {
 void add_index_options(CLI::App& command, IndexRequest& request) {
     command.add_option("--index", request.kind, "what finds the hits; never changes the picture")
         ->type_name("auto|bvh|grid|brute")
-        ->check(CLI::IsMember({"auto", "bvh", "grid", "brute"}))
+        ->check(CLI::IsMember({"auto", "bvh", "grid", "brute"}).description(""))
         ->capture_default_str();
 }
 

@@ -3,6 +3,7 @@
 
 #include "vera/base/similar_words.h"
 
+#include <optional>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -40,6 +41,34 @@ std::string unknown_word(const CLI::App& command, const std::string& word) {
     return fmt::format("unknown {} '{}'", what, name);
 }
 
+/// "--index takes auto, grid or brute; found 'gird'; did you mean 'grid'?", when the error begins
+/// with the name of an option whose type is such a list.
+std::optional<std::string> wrong_choice(const CLI::App& command, std::string_view problem) {
+    const std::string name(problem.substr(0, problem.find(':')));
+    const CLI::Option* const option = command.get_option_no_throw(name);
+    if (option == nullptr || option->results().empty())
+        return std::nullopt;
+    std::vector<std::string> choices;
+    std::string type = option->get_type_name();
+    for (std::size_t bar = 0; bar != std::string::npos; type.erase(0, bar + 1)) {
+        bar = type.find('|');
+        choices.push_back(type.substr(0, bar));
+    }
+    if (choices.size() < 2)
+        return std::nullopt;
+    std::string list;
+    for (std::size_t i = 0; i < choices.size(); ++i)
+        list += (i == 0 ? "" : i + 1 == choices.size() ? " or " : ", ") + choices[i];
+    const std::string& found = option->results().back();
+    const auto similar = most_similar(found, choices);
+    return fmt::format(
+        "{} takes {}; found '{}'{}",
+        name,
+        list,
+        found,
+        similar ? fmt::format("; did you mean '{}'?", *similar) : "");
+}
+
 } // namespace
 
 std::string with_help_hint(const CLI::App& app, std::string_view problem) {
@@ -57,6 +86,8 @@ std::string usage_problem(const CLI::App& app, const CLI::ParseError& error) {
         return with_help_hint(app, unknown_word(command_in_use(app), unread.front()));
     if (&command_in_use(app) == &app && dynamic_cast<const CLI::RequiredError*>(&error) != nullptr)
         return with_help_hint(app, "say what to do: render, check or info");
+    if (const auto choice = wrong_choice(command_in_use(app), error.what()))
+        return with_help_hint(app, *choice);
     std::string problem = error.what();
     for (char& letter : problem)
         letter = letter == '\n' ? ' ' : letter;

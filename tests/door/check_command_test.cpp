@@ -71,6 +71,16 @@ TEST(CheckCommand, GivesDiagnosticsAsJson) {
     EXPECT_NE(run.out.find("\"good\": false"), std::string::npos) << run.out;
 }
 
+TEST(CheckCommand, NamesTheSceneThatHoldsNothing) {
+    const ScratchFolder folder;
+    folder.write("a.vera", "(* nothing *)");
+    const ProgramRun run = run_vera(folder, "check a.vera");
+    EXPECT_EQ(run.exit_code, 1);
+    EXPECT_EQ(
+        run.err,
+        "a.vera: error: the scene holds nothing that could be framed\n  add some geometry\n");
+}
+
 TEST(CheckCommand, ReadsTheControlFileToo) {
     const ScratchFolder folder;
     folder.write("a.vera", small_scene);

@@ -16,7 +16,7 @@ std::vector<std::string> indexes(const ScratchFolder& folder) {
     const std::string help = run_vera(folder, "render --help").out;
     const std::string option = "--index ";
     const std::size_t begin = help.find(option) + option.size();
-    std::string names = help.substr(begin, help.find_first_of(" :\n", begin) - begin);
+    std::string names = help.substr(begin, help.find_first_of(" :=\n", begin) - begin);
     std::vector<std::string> list;
     for (std::size_t bar = 0; bar != std::string::npos;) {
         bar = names.find('|');

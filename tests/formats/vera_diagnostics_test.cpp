@@ -79,6 +79,21 @@ const std::vector<Mistake>& mistakes() {
      "test.vera:4:1: error: expected a statement, found 'p3'; did you mean 'P3'?\n"
      "    p3 0 0 0 1 0 0 0 1 0\n"
      "    ^~\n"},
+    {"AMisspeltKeywordBehindAnotherMistake",
+     "SP 0 0 0 x\n"
+            "SPP 0 0 0 1\n"
+            "P4 0 0 0 y\n"
+            "9 9 9 DRF\n"
+            "DRF 1 1 1",
+     "test.vera:2:10: error: expected the sphere's radius, found 'x'\n"
+     "    SP 0 0 0 x\n"
+     "             ^\n"
+     "test.vera:3:1: error: expected a statement, found 'SPP'; did you mean 'SP'?\n"
+     "    SPP 0 0 0 1\n"
+     "    ^~~\n"
+     "test.vera:4:10: error: expected the x of the second corner, found 'y'\n"
+     "    P4 0 0 0 y\n"
+     "             ^\n"},
     {"APartOfAnotherStatement",
      "SP 0 0 0 1 DRF 1 1 1",
      "test.vera:2:12: error: expected a statement, found 'DRF'\n"

@@ -78,10 +78,12 @@ SourceText::SourceText(const std::filesystem::path& path)
         standard_input ? STDIN_FILENO : open(path.c_str(), O_RDONLY | O_CLOEXEC), !standard_input};
     if (file.descriptor < 0) {
         const int error = errno;
+        // In brackets: what the machine says comes behind it.
+        const std::string similar = error == ENOENT ? similar_file(path, " (") : "";
         throw std::system_error(
             error,
             std::generic_category(),
-            "cannot read '" + name_ + "'" + (error == ENOENT ? similar_file(path, "; ") : ""));
+            "cannot read '" + name_ + "'" + similar + (similar.empty() ? "" : ")"));
     }
     struct stat status = {};
     if (fstat(file.descriptor, &status) != 0)

@@ -84,14 +84,27 @@ private:
         return true;
     }
 
-    /// Goes on to the next word that begins a statement, or would if it stood in capitals: at the
-    /// beginning of a line, that is another mistake.
+    /// Goes on to the next word that begins a statement, or at the beginning of a line is like one
+    /// that does: that is another mistake.
     void skip_statement() {
         complete_ = {};
         words().take_until([this](std::string_view word) {
             return statement_named(word)
-                || (statement_named(in_capitals(word)) && words().at_line_start());
+                || (is_misspelt_statement(word) && words().at_line_start());
         });
+    }
+
+    static bool is_misspelt_statement(std::string_view word) {
+        if (statement_named(in_capitals(word)))
+            return true;
+        // Not a single letter, which is like everything short, and not what goes on with a
+        // statement.
+        constexpr std::size_t shortest = 3;
+        constexpr std::size_t longest = 12;
+        if (word.size() < shortest || word.size() > longest || word[0] < 'A' || word[0] > 'Z'
+            || std::find(scene_words.begin(), scene_words.end(), word) != scene_words.end())
+            return false;
+        return !did_you_mean(word, std::span(scene_words.data(), statement_word_count)).empty();
     }
 
     static std::string in_capitals(std::string_view word) {

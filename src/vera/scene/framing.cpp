@@ -14,8 +14,10 @@ namespace vera {
 
 namespace {
 
-[[noreturn]] void refuse(const char* problem, const char* remedy) {
+[[noreturn]] void refuse(const Scene& scene, const char* problem, const char* remedy) {
     Diagnostic diagnostic;
+    if (!scene.files.empty())
+        diagnostic.place.file = scene.files.front();
     diagnostic.problem = problem;
     diagnostic.remedy = remedy;
     throw InputError({diagnostic});
@@ -25,9 +27,9 @@ namespace {
 /// steps on polyhedral ones; this many are never needed.
 constexpr int most_steps = 100;
 
-void refuse_empty(const SceneSupport& support) {
+void refuse_empty(const Scene& scene, const SceneSupport& support) {
     if (support.bounds().empty())
-        refuse("the scene holds nothing that could be framed", "add some geometry");
+        refuse(scene, "the scene holds nothing that could be framed", "add some geometry");
 }
 
 double picture_aspect(const FrameSettings& frame) {
@@ -134,18 +136,21 @@ Interval perspective_extent(
         coordinate.shift + largest_quotient(support, viewpoint, numerator, denominator)};
 }
 
-void refuse_what_is_behind(const SceneSupport& support, Vec3 viewpoint, Vec3 forward) {
+void refuse_what_is_behind(
+    const Scene& scene, const SceneSupport& support, Vec3 viewpoint, Vec3 forward) {
     const Vec3 nearest = *support.farthest_point(-forward);
     const Vec3 farthest = *support.farthest_point(forward);
     const double nearest_depth = dot(nearest - viewpoint, forward);
     if (dot(farthest - viewpoint, forward) <= 0)
         refuse(
+            scene,
             "all of the scene lies behind the view point",
             "turn the image plane of PROJECTION to the other side of the view point");
     // What passes the view point sideways has no end in the image plane.
     const double size = max_component(abs(viewpoint)) + length(extent(support.bounds()));
     if (nearest_depth <= 0x1p-40 * size)
         refuse(
+            scene,
             "the scene cannot be framed: a part of it lies beside or behind the view point",
             "move the view point of PROJECTION away from the scene");
 }
@@ -169,7 +174,7 @@ fitted(Interval x, Interval y, double aspect, const FrameSettings& frame) {
 
 Camera framed_camera(const Scene& scene, const FrameSettings& frame) {
     const SceneSupport support(scene);
-    refuse_empty(support);
+    refuse_empty(scene, support);
     const auto [right, up, forward] = three_quarter_view();
 
     // Tangent of 18 degrees: half the field of view of the longer side of the picture.
@@ -203,7 +208,7 @@ Camera framed_camera(const Scene& scene, const FrameSettings& frame) {
 
 Camera reframed_camera(const Scene& scene, const Camera& camera, const FrameSettings& frame) {
     const SceneSupport support(scene);
-    refuse_empty(support);
+    refuse_empty(scene, support);
     const Vec3 across = normalized(camera.lower_right - camera.lower_left);
     const Vec3 up = normalized(camera.upper_left - camera.lower_left);
     const Vec3 plane_normal = normalized(cross(across, up));
@@ -224,7 +229,7 @@ Camera reframed_camera(const Scene& scene, const Camera& camera, const FrameSett
         const double plane_distance = dot(plane_normal, camera.lower_left - camera.viewpoint);
         const Vec3 forward = plane_distance < 0 ? -plane_normal : plane_normal;
         const double distance = std::abs(plane_distance);
-        refuse_what_is_behind(support, camera.viewpoint, forward);
+        refuse_what_is_behind(scene, support, camera.viewpoint, forward);
         const auto coordinate = [&](Vec3 normal, Vec3 along) {
             const Vec3 numerator = normal / dot(normal, along);
             return PlaneCoordinate{
