@@ -144,8 +144,9 @@ TEST(StrangeFiles, WithANumberOfTenThousandDigitsAreRead) {
          " 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n"}};
 
     for (const auto& [format, before, behind] : texts) {
-        EXPECT_TRUE(errors(format, before + half + behind).empty()) << format.extension;
-        const auto said = errors(format, before + huge + behind);
+        EXPECT_TRUE(errors(format, fmt::format("{}{}{}", before, half, behind)).empty())
+            << format.extension;
+        const auto said = errors(format, fmt::format("{}{}{}", before, huge, behind));
         ASSERT_EQ(said.size(), 1U) << format.extension;
         EXPECT_THAT(said[0].problem, HasSubstr("too large")) << format.extension;
         EXPECT_GT(said[0].place.line, 0U);
@@ -219,7 +220,7 @@ TEST(ReadingMemory, IsAtMostThreeTimesTheFileAndOfShortWordsWhatTheSceneTakes) {
 
     for (const auto& [extension, head, line, foot, most] : files) {
         const ScratchFile file(extension);
-        const std::string text = head + repeated(line, 10'000'000) + foot;
+        const std::string text = fmt::format("{}{}{}", head, repeated(line, 10'000'000), foot);
         const auto growth = static_cast<double>(peak_growth(file.hold(text).path()));
         EXPECT_GT(growth, 0) << line;
         // The part of the file in which the reader is, and large pages that are not full.
