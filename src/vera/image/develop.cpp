@@ -18,8 +18,8 @@ namespace {
 template <typename Sample>
 Sample integer_sample(double value) {
     constexpr double largest = std::numeric_limits<Sample>::max();
-    const double clamped = value > 0 ? (value < 1 ? value : 1) : 0;
-    const double scaled = largest * clamped;
+    const double positive = value > 0 ? value : 0;
+    const double scaled = largest * (positive < 1 ? positive : 1);
     const auto whole = static_cast<std::int32_t>(scaled);
     // The difference is exact, and so the comparison decides as the definition does.
     return static_cast<Sample>(whole + (scaled - whole >= 0.5 ? 1 : 0));

@@ -62,8 +62,8 @@ constexpr Vec3 max(Vec3 a, Vec3 b) {
     return {a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z};
 }
 
-constexpr Vec3 abs(Vec3 a) {
-    return {a.x < 0 ? -a.x : a.x, a.y < 0 ? -a.y : a.y, a.z < 0 ? -a.z : a.z};
+inline Vec3 abs(Vec3 a) {
+    return {std::abs(a.x), std::abs(a.y), std::abs(a.z)};
 }
 
 constexpr double max_component(Vec3 a) {
@@ -72,26 +72,26 @@ constexpr double max_component(Vec3 a) {
 }
 
 /// The axis (0, 1, 2) along which a is longest; the first of them on a tie.
-constexpr std::size_t longest_axis(Vec3 a) {
+inline std::size_t longest_axis(Vec3 a) {
     const Vec3 length = abs(a);
     if (length.x >= length.y && length.x >= length.z)
         return 0;
     return length.y >= length.z ? 1 : 2;
 }
 
+namespace detail {
+
+/// length() of a vector whose largest component has that absolute value, however large or small.
+double scaled_length(Vec3 a, double largest);
+
+} // namespace detail
+
 /// Neither overflows nor underflows where the result does not.
 inline double length(Vec3 a) {
     const double largest = max_component(abs(a));
-    if (!(largest > 0) || !(largest <= 1.7e308))
-        return largest; // zero, infinite or not a number
-    if (largest > 1e-140 && largest < 1e140)
+    if (largest > 1e-140 && largest < 1e140) [[likely]]
         return std::sqrt(dot(a, a));
-    // Scaling by a power of two is exact, so that a scene and its scaled copy round alike.
-    int exponent = 0;
-    std::frexp(largest, &exponent);
-    const Vec3 scaled = {
-        std::ldexp(a.x, -exponent), std::ldexp(a.y, -exponent), std::ldexp(a.z, -exponent)};
-    return std::ldexp(std::sqrt(dot(scaled, scaled)), exponent);
+    return detail::scaled_length(a, largest);
 }
 
 /// The unit vector in a's direction; a itself where a is zero.

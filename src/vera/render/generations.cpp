@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/render/generations.h"
 
-#include "vera/base/check.h"
-#include "vera/scene/crossings.h"
 #include "vera/shade/firmament.h"
 
 #include <algorithm>
@@ -11,16 +9,26 @@ namespace vera {
 
 namespace {
 
-/// From the surface to the light: t is 0 there and 1 here. What is as near to the light as rounding
-/// can tell is not between them.
-QueryRay shadow_ray(const SurfacePoint& surface, Vec3 light_position) {
-    QueryRay query;
-    query.ray.origin = surface.point;
-    query.ray.origin_error = surface.point_error;
-    query.ray.direction = light_position - surface.point;
-    query.ray.t_max = 1 - coincidence_tolerance(query.ray, 1);
-    query.start = surface.face;
-    return query;
+/// Of the block that holds the place, and its lane there.
+constexpr std::size_t block_of(std::size_t place) {
+    return place / block_size;
+}
+
+constexpr std::size_t lane_of(std::size_t place) {
+    return place % block_size;
+}
+
+constexpr BlockLanes lane_bit(std::size_t lane) {
+    return BlockLanes{1} << lane;
+}
+
+/// Lets the ray, of which the rest is at its default, start from a place on that face.
+void set_ray(
+    QueryRay& query, const PlaceBlock& block, std::size_t lane, FaceId face, Vec3 direction) {
+    query.ray.origin = vector_at(block.point, lane);
+    query.ray.direction = direction;
+    query.ray.origin_error = block.point_error[lane];
+    query.start = face;
 }
 
 } // namespace
@@ -42,7 +50,18 @@ TracedScene traced_scene(
 }
 
 GenerationTracer::GenerationTracer(const TracedScene& traced)
-    : traced_(traced) {}
+    : traced_(traced) {
+    const auto add_look = [&](const Material& material) {
+        looks_.push_back(
+            {&material,
+             !is_black(material.rab),
+             !is_black(material.tab),
+             traced.luminosity && !(is_black(material.san) && is_black(material.sdi))});
+    };
+    for (const Material& material : traced.scene.materials)
+        add_look(material);
+    add_look(material_of(traced.scene, inherited_material));
+}
 
 GenerationTracer::Level& GenerationTracer::level_buffers(std::uint32_t level) {
     while (levels_.size() <= level)
@@ -70,12 +89,15 @@ void GenerationTracer::shade(
     std::span<Color> colors) {
     for (std::size_t first = 0; first < rays.size(); first += generation_size) {
         const std::size_t count = std::min(generation_size, rays.size() - first);
-        shade_part(
-            1,
+        const std::span<const Hit> part_hits = hits.subspan(first, count);
+        const std::span<Color> part_colors = colors.subspan(first, count);
+        find_places(
+            level_buffers(1),
             rays.subspan(first, count),
-            hits.subspan(first, count),
-            at.subspan(first, count),
-            colors.subspan(first, count));
+            part_hits,
+            [&](std::size_t i) -> const SurfacePoint& { return at[first + i]; },
+            part_colors);
+        shade_places(1, part_colors);
     }
 }
 
@@ -90,28 +112,132 @@ void GenerationTracer::trace_part(
     std::uint32_t level, std::span<const QueryRay> rays, std::span<Color> colors) {
     Level& work = level_buffers(level);
     work.hits.resize(rays.size());
-    work.surfaces.resize(rays.size());
     nearest(rays, work.hits);
-    surfaces(rays, work.hits, work.surfaces);
-    shade_part(level, rays, work.hits, work.surfaces, colors);
+    find_places(
+        work,
+        rays,
+        work.hits,
+        [&](std::size_t i) { return surface_at(traced_.scene, rays[i].ray, work.hits[i]); },
+        colors);
+    shade_places(level, colors);
 }
 
-void GenerationTracer::shade_part(
-    std::uint32_t level,
+template <typename SurfaceOf>
+void GenerationTracer::find_places(
+    Level& level,
     std::span<const QueryRay> rays,
     std::span<const Hit> hits,
-    std::span<const SurfacePoint> at,
+    const SurfaceOf& surface_of,
     std::span<Color> colors) {
-    Level& work = level_buffers(level);
-    find_places(work, rays, hits, at, colors);
-    for (const PointLight& light : traced_.illumination.lights)
-        light_places(work.places, light);
-    for (const LitPlace& place : work.places)
-        colors[place.ray] = sum(place.terms);
+    level.places.resize(rays.size());
+    level.blocks.resize(block_of(rays.size() + block_size - 1));
+    level.mirrors = false;
+    level.refracts = false;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const Vec3 direction = rays[i].ray.direction;
+        if (!hits[i].found()) {
+            colors[i] = firmament_color(traced_.firmament, direction);
+            continue;
+        }
+        const SurfacePoint& surface = surface_of(i);
+        const std::size_t number = static_cast<std::size_t>(surface.material);
+        const Look& look = number < looks_.size() ? looks_[number] : looks_.back();
+        level.places[count] = {hits[i].face, &look, static_cast<std::uint32_t>(i)};
+        PlaceBlock& block = level.blocks[block_of(count)];
+        const std::size_t lane = lane_of(count);
+        if (lane == 0)
+            block.lanes = block.refracting = 0;
+        put_place(block, lane, surface, direction, *look.material);
+        block.lanes |= lane_bit(lane);
+        block.refracting |= BlockLanes{look.refracts} << lane;
+        level.mirrors |= look.mirrors;
+        level.refracts |= look.refracts;
+        ++count;
+    }
+    level.places.resize(count);
+    level.blocks.resize(block_of(count + block_size - 1));
+    turn_to_viewer(level.blocks);
+}
 
-    if (level >= traced_.depth)
+void GenerationTracer::shade_places(std::uint32_t level, std::span<Color> colors) {
+    Level& work = level_buffers(level);
+    for (const PointLight& light : traced_.illumination.lights)
+        light_places(work, light);
+    color_places(work, colors);
+    if (level < traced_.depth && (work.mirrors || work.refracts))
+        trace_children(level, colors);
+}
+
+void GenerationTracer::light_places(Level& level, const PointLight& light) {
+    lights_.resize(level.blocks.size());
+    light_up(level.blocks, light, lights_);
+    if (traced_.shadows)
+        cast_shadows(level);
+    else
+        for (LightBlock& block : lights_)
+            for (BlockRow& row : block.visibility)
+                row.fill(1);
+    add_light(level.blocks, lights_);
+}
+
+void GenerationTracer::cast_shadows(const Level& level) {
+    shadow_rays_.resize(level.places.size());
+    QueryRay* shadow_ray = shadow_rays_.data();
+    for (std::size_t i = 0; i < lights_.size(); ++i) {
+        const PlaceBlock& block = level.blocks[i];
+        const LightBlock& light = lights_[i];
+        const Place* places = &level.places[i * block_size];
+        for_each_lane(light.lit, [&](std::size_t lane) {
+            set_ray(*shadow_ray, block, lane, places[lane].face, vector_at(light.to_light, lane));
+            shadow_ray->ray.t_max = light.shadow_end[lane];
+            ++shadow_ray;
+        });
+    }
+    const auto count = static_cast<std::size_t>(shadow_ray - shadow_rays_.data());
+    if (count == 0)
         return;
-    find_children(work);
+    if (traced_.cancel != nullptr)
+        traced_.cancel->throw_if_raised();
+    visibilities_.resize(level.places.size());
+    const std::span<Color> visibilities = std::span(visibilities_).first(count);
+    traced_.index.transmittances(
+        std::span(shadow_rays_).first(count), visibilities, statistics.queries);
+    statistics.shadow_rays += count;
+
+    const Color* visibility = visibilities.data();
+    for (LightBlock& light : lights_)
+        for_each_lane(
+            light.lit, [&](std::size_t lane) { put(light.visibility, lane, *visibility++); });
+}
+
+void GenerationTracer::color_places(const Level& level, std::span<Color> colors) {
+    reflected_.resize(level.blocks.size());
+    reflected_light(level.blocks, traced_.illumination.ambient, reflected_);
+    for (std::size_t i = 0; i < level.places.size(); ++i) {
+        const Place& place = level.places[i];
+        const std::size_t lane = lane_of(i);
+        Color color = color_at(reflected_[block_of(i)], lane);
+        if (place.look->is_luminous)
+            color += luminosity(level.blocks[block_of(i)].cos_viewer[lane], *place.look->material);
+        colors[place.ray] = color;
+    }
+}
+
+void GenerationTracer::trace_children(std::uint32_t level, std::span<Color> colors) {
+    // All mirrored rays come before all refracted ones, so that neighbours stay close together.
+    Level& work = level_buffers(level);
+    const std::size_t most = work.places.size() * (work.refracts ? 2 : 1);
+    work.children.resize(most);
+    work.child_rays.resize(most);
+    if (work.refracts) {
+        refractions_.resize(work.blocks.size());
+        refract(work.blocks, refractions_);
+    }
+    find_mirrored(work);
+    if (work.refracts)
+        find_refracted(work);
+
     work.child_colors.resize(work.children.size());
     for (std::size_t first = 0; first < work.children.size(); first += generation_size) {
         const std::size_t count = std::min(generation_size, work.children.size() - first);
@@ -123,104 +249,56 @@ void GenerationTracer::shade_part(
     add_children(work, colors);
 }
 
-void GenerationTracer::find_places(
-    Level& level,
-    std::span<const QueryRay> rays,
-    std::span<const Hit> hits,
-    std::span<const SurfacePoint> at,
-    std::span<Color> colors) const {
-    level.places.clear();
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        const Vec3 direction = rays[i].ray.direction;
-        if (!hits[i].found()) {
-            colors[i] = firmament_color(traced_.firmament, direction);
-            continue;
-        }
-        LitPlace& place = level.places.emplace_back();
-        place.at = incidence(at[i], direction);
-        place.material = &material_of(traced_.scene, at[i].material);
-        place.surface = &at[i];
-        place.terms = unlit(place.at, *place.material, traced_.illumination.ambient);
-        place.ray = static_cast<std::uint32_t>(i);
-        if (!traced_.luminosity)
-            place.terms.luminosity = {};
-    }
-}
-
-void GenerationTracer::light_places(std::vector<LitPlace>& places, const PointLight& light) {
-    lit_.clear();
-    shadow_rays_.clear();
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        LitPlace& place = places[i];
-        const LightTerms terms = unshadowed(place.at, *place.material, light);
-        if (is_black(terms))
-            continue;
-        if (!traced_.shadows) {
-            place.terms += terms;
-            continue;
-        }
-        lit_.push_back({static_cast<std::uint32_t>(i), terms});
-        shadow_rays_.push_back(shadow_ray(*place.surface, light.position));
-    }
-    if (lit_.empty())
-        return;
-
-    if (traced_.cancel != nullptr)
-        traced_.cancel->throw_if_raised();
-    visibilities_.resize(lit_.size());
-    traced_.index.transmittances(shadow_rays_, visibilities_, statistics.queries);
-    statistics.shadow_rays += shadow_rays_.size();
-    for (std::size_t i = 0; i < lit_.size(); ++i)
-        places[lit_[i].place].terms += visibilities_[i] * lit_[i].terms;
-}
-
-void GenerationTracer::find_children(Level& level) {
-    level.children.clear();
-    level.child_rays.clear();
+void GenerationTracer::find_mirrored(Level& level) {
+    std::size_t count = 0;
     for (std::uint32_t i = 0; i < level.places.size(); ++i) {
-        const LitPlace& place = level.places[i];
-        const bool mirrors = !is_black(place.material->rab);
-        const bool refracts = !is_black(place.material->tab);
-        const std::optional<Vec3> onward =
-            refracts ? refracted(place.at, place.material->ref) : std::nullopt;
-        if (refracts && !onward) {
-            // One ray is both, so that rays caught in glass do not double at each level.
-            send(level, i, Child::Kind::mirrored_and_totally_reflected, place.at.mirrored);
-            ++statistics.mirrored_rays;
+        const Place& place = level.places[i];
+        const std::size_t lane = lane_of(i);
+        // One ray is both, so that rays caught in glass do not double at each level.
+        const bool is_total = place.look->refracts
+            && (refractions_[block_of(i)].totally_reflected & lane_bit(lane)) != 0;
+        if (!place.look->mirrors && !is_total)
             continue;
-        }
-        if (mirrors) {
-            send(level, i, Child::Kind::mirrored, place.at.mirrored);
-            ++statistics.mirrored_rays;
-        }
-        if (onward) {
-            send(level, i, Child::Kind::refracted, *onward);
-            ++statistics.refracted_rays;
-        }
+        const PlaceBlock& block = level.blocks[block_of(i)];
+        set_ray(level.child_rays[count], block, lane, place.face, vector_at(block.mirrored, lane));
+        level.children[count++] = {
+            i, is_total ? Child::Kind::mirrored_and_totally_reflected : Child::Kind::mirrored};
     }
+    level.children.resize(count);
+    statistics.mirrored_rays += count;
 }
 
-void GenerationTracer::send(
-    Level& level, std::uint32_t place, Child::Kind kind, Vec3 direction) const {
-    const SurfacePoint& surface = *level.places[place].surface;
-    QueryRay query;
-    query.ray.origin = surface.point;
-    query.ray.origin_error = surface.point_error;
-    query.ray.direction = direction;
-    query.start = surface.face;
-    level.child_rays.push_back(query);
-    level.children.push_back({place, kind});
+void GenerationTracer::find_refracted(Level& level) {
+    std::size_t count = level.children.size();
+    statistics.refracted_rays -= count;
+    level.children.resize(level.child_rays.size());
+    for (std::size_t i = 0; i < level.blocks.size(); ++i) {
+        const PlaceBlock& block = level.blocks[i];
+        const RefractionBlock& refraction = refractions_[i];
+        for_each_lane(block.refracting & ~refraction.totally_reflected, [&](std::size_t lane) {
+            const std::size_t place = i * block_size + lane;
+            set_ray(
+                level.child_rays[count],
+                block,
+                lane,
+                level.places[place].face,
+                vector_at(refraction.direction, lane));
+            level.children[count++] = {static_cast<std::uint32_t>(place), Child::Kind::refracted};
+        });
+    }
+    level.children.resize(count);
+    statistics.refracted_rays += count;
 }
 
 void GenerationTracer::add_children(const Level& level, std::span<Color> colors) const {
     for (std::size_t i = 0; i < level.children.size(); ++i) {
         const Child& child = level.children[i];
-        const LitPlace& place = level.places[child.place];
+        const Place& place = level.places[child.place];
         Color& color = colors[place.ray];
         if (child.kind != Child::Kind::refracted)
-            color += place.material->rab * level.child_colors[i];
+            color += place.look->material->rab * level.child_colors[i];
         if (child.kind != Child::Kind::mirrored)
-            color += place.material->tab * level.child_colors[i];
+            color += place.look->material->tab * level.child_colors[i];
     }
 }
 

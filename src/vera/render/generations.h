@@ -4,12 +4,13 @@
 #include "vera/accel/ray_index.h"
 #include "vera/base/parallel.h"
 #include "vera/math/color.h"
+#include "vera/render/buffer.h"
 #include "vera/render/statistics.h"
 #include "vera/scene/light.h"
 #include "vera/scene/picture_settings.h"
 #include "vera/scene/scene.h"
 #include "vera/scene/surface.h"
-#include "vera/shade/lighting.h"
+#include "vera/shade/place_blocks.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -77,19 +78,19 @@ public:
     RenderStatistics statistics;
 
 private:
-    /// A place that the rays of a generation meet, what it looks like so far, and who sees it.
-    struct LitPlace {
-        Incidence at;
+    /// A material, and what of it decides which rays are sent on.
+    struct Look {
         const Material* material = nullptr;
-        const SurfacePoint* surface = nullptr;
-        LocalTerms terms;
-        std::uint32_t ray = 0;
+        bool mirrors = false;
+        bool refracts = false;
+        bool is_luminous = false;
     };
 
-    /// A shadow ray's place, and what comes to it of the light if nothing is between.
-    struct Lit {
-        std::uint32_t place = 0;
-        LightTerms terms;
+    /// A place that a ray of the generation meets; the rest of it stands in a lane of a block.
+    struct Place {
+        FaceId face;
+        const Look* look = nullptr;
+        std::uint32_t ray = 0;
     };
 
     /// A ray of the next generation, and what sends it.
@@ -102,38 +103,44 @@ private:
 
     /// What is in work at one level of the ray tree.
     struct Level {
-        std::vector<Hit> hits;
-        std::vector<SurfacePoint> surfaces;
-        std::vector<LitPlace> places;
-        std::vector<Child> children;
-        std::vector<QueryRay> child_rays;
-        std::vector<Color> child_colors;
+        Buffer<Hit> hits;
+        Buffer<Place> places;
+        Buffer<PlaceBlock> blocks; ///< place i in lane i % block_size of i / block_size
+        bool mirrors = false;      ///< whether any place does
+        bool refracts = false;
+        Buffer<Child> children;
+        Buffer<QueryRay> child_rays;
+        Buffer<Color> child_colors;
     };
 
     void trace_part(std::uint32_t level, std::span<const QueryRay> rays, std::span<Color> colors);
-    void shade_part(
-        std::uint32_t level,
-        std::span<const QueryRay> rays,
-        std::span<const Hit> hits,
-        std::span<const SurfacePoint> at,
-        std::span<Color> colors);
+    template <typename SurfaceOf>
     void find_places(
         Level& level,
         std::span<const QueryRay> rays,
         std::span<const Hit> hits,
-        std::span<const SurfacePoint> at,
-        std::span<Color> colors) const;
-    void light_places(std::vector<LitPlace>& places, const PointLight& light);
-    void find_children(Level& level);
-    void send(Level& level, std::uint32_t place, Child::Kind kind, Vec3 direction) const;
+        const SurfaceOf& surface_of,
+        std::span<Color> colors);
+    void shade_places(std::uint32_t level, std::span<Color> colors);
+    void light_places(Level& level, const PointLight& light);
+    void cast_shadows(const Level& level);
+    void color_places(const Level& level, std::span<Color> colors);
+    void trace_children(std::uint32_t level, std::span<Color> colors);
+    void find_mirrored(Level& level);
+    void find_refracted(Level& level);
     void add_children(const Level& level, std::span<Color> colors) const;
     Level& level_buffers(std::uint32_t level);
 
     const TracedScene& traced_;
+    std::vector<Look> looks_; ///< of the scene's materials, and of what stands for a missing one
     std::vector<std::unique_ptr<Level>> levels_;
-    std::vector<Lit> lit_;
-    std::vector<QueryRay> shadow_rays_;
-    std::vector<Color> visibilities_;
+
+    // What is in work between two queries, at any level.
+    Buffer<LightBlock> lights_;
+    Buffer<RefractionBlock> refractions_;
+    Buffer<BlockRows> reflected_;
+    Buffer<QueryRay> shadow_rays_;
+    Buffer<Color> visibilities_;
 };
 
 } // namespace vera

@@ -9,6 +9,7 @@
 #include "vera/render/workspaces.h"
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -24,29 +25,35 @@ struct TileWork {
     GenerationTracer tracer;
     std::vector<QueryRay> rays;
     std::vector<Color> colors;
-    std::vector<Color> rows; ///< the same, row by row
 };
 
-void render_tile(const Raster& raster, const Tile& tile, TileWork& work, Image& image) {
-    work.rays.clear();
+/// The rays through the centres of the tile's pixels.
+void find_center_rays(const Raster& raster, const Tile& tile, std::vector<QueryRay>& rays) {
+    std::array<Vec3, tile_side> columns;
+    std::array<Vec3, tile_side> rows;
+    for (std::size_t x = 0; x < tile.width; ++x)
+        columns[x] = raster.rays.place_across(raster.across(static_cast<double>(tile.x + x)));
+    for (std::size_t y = 0; y < tile.height; ++y)
+        rows[y] = raster.rays.place_up(raster.down(static_cast<double>(tile.y + y)));
+
+    rays.resize(tile.width * tile.height);
+    QueryRay* ray = rays.data();
     for_each_pixel(tile, [&](std::size_t x, std::size_t y) {
-        work.rays.push_back(raster.ray(static_cast<double>(x), static_cast<double>(y)));
+        (ray++)->ray = raster.rays.ray(columns[x - tile.x], rows[y - tile.y]);
     });
+}
+
+void render_tile(const Raster& raster, const Tile& tile, TileWork& work, Image& image) {
+    find_center_rays(raster, tile, work.rays);
     work.colors.resize(work.rays.size());
     work.tracer.trace(work.rays, work.colors);
     work.tracer.statistics.view_rays += work.rays.size();
 
-    work.rows.resize(work.colors.size());
-    const Color* color = work.colors.data();
-    for_each_pixel(tile, [&](std::size_t x, std::size_t y) {
-        work.rows[(y - tile.y) * tile.width + x - tile.x] = *color++;
+    std::span<const Color> colors = work.colors;
+    for_each_run(tile, [&](std::size_t x, std::size_t y, std::size_t count) {
+        develop(colors.first(count), image, x, y);
+        colors = colors.subspan(count);
     });
-    for (std::size_t row = 0; row < tile.height; ++row)
-        develop(
-            std::span<const Color>(work.rows).subspan(row * tile.width, tile.width),
-            image,
-            tile.x,
-            tile.y + row);
 }
 
 /// One ray a pixel.
@@ -54,7 +61,7 @@ RenderStatistics
 render_centers(const TracedScene& traced, const Raster& raster, Image& image, ProgressMeter& done) {
     const Tiling tiling = {raster.width, raster.height, tile_side};
     Workspaces<TileWork> workspaces([&] {
-        return std::unique_ptr<TileWork>(new TileWork{GenerationTracer(traced), {}, {}, {}});
+        return std::unique_ptr<TileWork>(new TileWork{GenerationTracer(traced), {}, {}});
     });
     parallel_ranges(tiling.count(), 1, [&](std::size_t first, std::size_t last) {
         workspaces.lend([&](TileWork& work) {
@@ -86,7 +93,7 @@ RenderResult render_scene(
     if (settings.exposure)
         result.exposure = expose(traced, camera, *settings.exposure, result.statistics);
 
-    const Raster raster = {camera, settings.width, settings.height};
+    const Raster raster = {ViewRays(camera), settings.width, settings.height};
     result.image = blank_image(raster.width, raster.height, sample_type);
     ProgressMeter done(
         progress, static_cast<double>(raster.width) * static_cast<double>(raster.height));

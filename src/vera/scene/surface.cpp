@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace vera {
 
@@ -38,30 +39,33 @@ Vec3 towards_outside(Vec3 normal, Vec3 by_normal, Outside outside) {
     return dot(normal, by_normal) < 0 ? -normal : normal;
 }
 
-LocalSurface
-plane_surface(Vec3 point, Vec3 corner, Vec3 normal, Vec3 shading_normal, Outside outside) {
-    const Vec3 moved = point - dot(point - corner, normal) * normal;
-    const double size = std::max(max_component(abs(moved)), max_component(abs(corner)));
-    const Vec3 out = towards_outside(normal, shading_normal, outside);
-    return {moved, rounding_of(size), out, shading_normal};
+/// What is to be known of a plane face to place a point on it: a corner, its own normal and the
+/// normal that it is shaded by, all unit.
+struct PlaneFace {
+    Vec3 corner;
+    Vec3 normal;
+    Vec3 shading_normal;
+    bool is_patch = false; ///< otherwise it is shaded by its own normal, turned to the outside
+};
+
+LocalSurface plane_surface(Vec3 point, const PlaneFace& face, Outside outside) {
+    const Vec3 moved = point - dot(point - face.corner, face.normal) * face.normal;
+    const double size = std::max(max_component(abs(moved)), max_component(abs(face.corner)));
+    const Vec3 out = towards_outside(face.normal, face.shading_normal, outside);
+    return {moved, rounding_of(size), out, face.is_patch ? face.shading_normal : out};
 }
 
 Vec3 normal_of(const std::array<Vec3, 3>& corners) {
     return normalized(cross(corners[1] - corners[0], corners[2] - corners[0]));
 }
 
-LocalSurface triangle_surface(Vec3 point, const std::array<Vec3, 3>& corners, Outside outside) {
+PlaneFace triangle_face(const std::array<Vec3, 3>& corners) {
     const Vec3 normal = normal_of(corners);
-    LocalSurface surface = plane_surface(point, corners[0], normal, normal, outside);
-    surface.shading_normal = surface.geometric_normal;
-    return surface;
+    return {corners[0], normal, normal};
 }
 
-LocalSurface patch_surface(
-    Vec3 point,
-    const std::array<Vec3, 3>& corners,
-    const std::array<Vec3, 3>& normals,
-    Outside outside) {
+PlaneFace
+patch_face(Vec3 point, const std::array<Vec3, 3>& corners, const std::array<Vec3, 3>& normals) {
     const Vec3 normal = normal_of(corners);
     // Weights of the corners: the areas of the triangles opposite to them.
     const auto area = [&](std::size_t from, std::size_t to) {
@@ -71,7 +75,28 @@ LocalSurface patch_surface(
     const Vec3 interpolated =
         weights[0] * normals[0] + weights[1] * normals[1] + weights[2] * normals[2];
     const Vec3 shading = interpolated == Vec3{} ? normal : normalized(interpolated);
-    return plane_surface(point, corners[0], normal, shading, outside);
+    return {corners[0], normal, shading, true};
+}
+
+PlaneFace polygon_face(const Geometry& geometry, const Polygon& polygon, std::uint32_t piece) {
+    const auto corners = corners_of(geometry, polygon);
+    if (polygon.shape == Polygon::Shape::split_quadrangle)
+        return triangle_face(corners_of_half(corners, piece));
+    return {corners[0], polygon.normal, polygon.normal};
+}
+
+PlaneFace mesh_face(Vec3 point, const Mesh& mesh, std::uint32_t triangle) {
+    const auto corners = corners_of(mesh, triangle);
+    if (mesh.normals.empty())
+        return triangle_face(corners);
+    const auto& indices = mesh.normal_indices.empty() ? mesh.position_indices : mesh.normal_indices;
+    const std::size_t first = 3 * std::size_t{triangle};
+    return patch_face(
+        point,
+        corners,
+        {mesh.normals[indices[first]],
+         mesh.normals[indices[first + 1]],
+         mesh.normals[indices[first + 2]]});
 }
 
 LocalSurface sphere_surface(Vec3 point, const Sphere& sphere) {
@@ -102,59 +127,33 @@ LocalSurface rotational_surface(Vec3 point, const RotationalShape& shape, std::u
     return {point - off * normal, 4 * rounding_of(reach), normal, normal};
 }
 
-LocalSurface polygon_surface(
-    Vec3 point,
-    const Geometry& geometry,
-    const Polygon& polygon,
-    Outside outside,
-    std::uint32_t piece) {
-    const auto corners = corners_of(geometry, polygon);
-    if (polygon.shape == Polygon::Shape::split_quadrangle)
-        return triangle_surface(point, corners_of_half(corners, piece), outside);
-    LocalSurface surface =
-        plane_surface(point, corners[0], polygon.normal, polygon.normal, outside);
-    surface.shading_normal = surface.geometric_normal;
-    return surface;
-}
-
-LocalSurface mesh_surface(Vec3 point, const Mesh& mesh, std::uint32_t triangle, Outside outside) {
-    const auto corners = corners_of(mesh, triangle);
-    if (mesh.normals.empty())
-        return triangle_surface(point, corners, outside);
-    const auto& indices = mesh.normal_indices.empty() ? mesh.position_indices : mesh.normal_indices;
-    const std::size_t first = 3 * std::size_t{triangle};
-    return patch_surface(
-        point,
-        corners,
-        {mesh.normals[indices[first]],
-         mesh.normals[indices[first + 1]],
-         mesh.normals[indices[first + 2]]},
-        outside);
-}
-
 LocalSurface
 local_surface(const Geometry& geometry, Element element, std::uint32_t piece, Vec3 point) {
     const Item& item = geometry.items[element.item];
+    PlaneFace face;
     switch (item.kind) {
     case ItemKind::sphere:
         return sphere_surface(point, geometry.spheres[item.index]);
-    case ItemKind::triangle:
-        return triangle_surface(point, geometry.triangles[item.index].corners, item.outside);
-    case ItemKind::polygon:
-        return polygon_surface(point, geometry, geometry.polygons[item.index], item.outside, piece);
-    case ItemKind::patch: {
-        const Patch& patch = geometry.patches[item.index];
-        return patch_surface(point, patch.corners, patch.normals, item.outside);
-    }
     case ItemKind::rotational_shape:
         return rotational_surface(point, geometry.rotational_shapes[item.index], piece);
-    case ItemKind::mesh:
-        return mesh_surface(point, geometry.meshes[item.index], element.triangle, item.outside);
-    case ItemKind::subscene_call:
+    case ItemKind::triangle:
+        face = triangle_face(geometry.triangles[item.index].corners);
+        break;
+    case ItemKind::polygon:
+        face = polygon_face(geometry, geometry.polygons[item.index], piece);
+        break;
+    case ItemKind::patch: {
+        const Patch& patch = geometry.patches[item.index];
+        face = patch_face(point, patch.corners, patch.normals);
         break;
     }
-    VERA_CHECK(item.kind != ItemKind::subscene_call);
-    return {};
+    case ItemKind::mesh:
+        face = mesh_face(point, geometry.meshes[item.index], element.triangle);
+        break;
+    case ItemKind::subscene_call:
+        VERA_CHECK(item.kind != ItemKind::subscene_call);
+    }
+    return plane_surface(point, face, item.outside);
 }
 
 /// The place in the main scene's coordinates.
@@ -183,7 +182,7 @@ struct Location {
     std::uint64_t within = 0;
 };
 
-Location location_of(const Geometry& geometry, std::uint64_t number) {
+Location location_among_compounds(const Geometry& geometry, std::uint64_t number) {
     const auto& compounds = geometry.compounds;
     const auto after = std::upper_bound(
         compounds.begin(),
@@ -205,6 +204,12 @@ Location location_of(const Geometry& geometry, std::uint64_t number) {
     if (within < size)
         return {compound.item, within};
     return {static_cast<std::uint32_t>(compound.item + 1 + (within - size)), 0};
+}
+
+inline Location location_of(const Geometry& geometry, std::uint64_t number) {
+    if (geometry.compounds.empty())
+        return {static_cast<std::uint32_t>(number), 0};
+    return location_among_compounds(geometry, number);
 }
 
 } // namespace
@@ -234,22 +239,32 @@ PrimitivePath path_to(const Scene& scene, std::uint64_t primitive) {
 }
 
 SurfacePoint surface_at(const Scene& scene, const Ray& ray, const Hit& hit) {
-    const PrimitivePath path = path_to(scene, hit.face.primitive);
-    const Vec3 point = point_at(ray, hit.t);
-    LocalSurface surface;
-    if (path.in_main_scene) {
-        surface = local_surface(*path.geometry, path.element, hit.face.piece, point);
-    } else {
-        const Vec3 local_point = transformed_point(path.from_world, point);
-        surface =
-            carried(path, local_surface(*path.geometry, path.element, hit.face.piece, local_point));
+    const Geometry* geometry = &scene.geometry;
+    VERA_CHECK(hit.face.primitive < geometry->primitive_count);
+    const Location location = location_of(*geometry, hit.face.primitive);
+    Element element = {location.item, static_cast<std::uint32_t>(location.within)};
+    MaterialId material = geometry->items[element.item].material;
+    Vec3 point = point_at(ray, hit.t);
+
+    const bool in_main_scene = geometry->items[element.item].kind != ItemKind::subscene_call;
+    std::optional<PrimitivePath> path;
+    if (!in_main_scene) {
+        path = path_to(scene, hit.face.primitive);
+        geometry = path->geometry;
+        element = path->element;
+        material = path->material;
+        point = transformed_point(path->from_world, point);
     }
+    LocalSurface surface = local_surface(*geometry, element, hit.face.piece, point);
+    if (!in_main_scene)
+        surface = carried(*path, surface);
+
     SurfacePoint result;
     result.point = surface.point;
     result.point_error = surface.point_error;
     result.geometric_normal = surface.geometric_normal;
     result.shading_normal = surface.shading_normal;
-    result.material = path.material;
+    result.material = material;
     result.face = hit.face;
     return result;
 }

@@ -56,7 +56,7 @@ LightTerms unshadowed(const Incidence& at, const Material& material, const Point
 LocalTerms unlit(const Incidence& at, const Material& material, Color ambient_light) {
     LocalTerms terms;
     terms.ambient = (at.cos_viewer * material.drf + material.arf) * ambient_light;
-    terms.luminosity = at.cos_viewer * material.san + material.sdi;
+    terms.luminosity = luminosity(at.cos_viewer, material);
     return terms;
 }
 

@@ -60,6 +60,11 @@ struct LocalTerms {
     friend constexpr bool operator==(const LocalTerms&, const LocalTerms&) = default;
 };
 
+/// Slm.
+constexpr Color luminosity(double cos_viewer, const Material& material) {
+    return cos_viewer * material.san + material.sdi;
+}
+
 /// Amb and Slm; the others are 0.
 LocalTerms unlit(const Incidence& at, const Material& material, Color ambient_light);
 
