@@ -7,19 +7,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace vera {
 
 namespace {
 
-/// A place on a face in the coordinates of its own geometry.
-struct LocalSurface {
-    Vec3 point;
-    double point_error = 0;
-    Vec3 geometric_normal;
-    Vec3 shading_normal;
-};
+/// A place without its material and face.
+SurfacePoint on_face(Vec3 point, double point_error, Vec3 geometric_normal, Vec3 shading_normal) {
+    SurfacePoint at;
+    at.point = point;
+    at.point_error = point_error;
+    at.geometric_normal = geometric_normal;
+    at.shading_normal = shading_normal;
+    return at;
+}
 
 /// A point moved onto a surface through places of this size is off it by at most this: the
 /// difference, the product with the normal and the step are each rounded.
@@ -48,11 +49,11 @@ struct PlaneFace {
     bool is_patch = false; ///< otherwise it is shaded by its own normal, turned to the outside
 };
 
-LocalSurface plane_surface(Vec3 point, const PlaneFace& face, Outside outside) {
+SurfacePoint plane_surface(Vec3 point, const PlaneFace& face, Outside outside) {
     const Vec3 moved = point - dot(point - face.corner, face.normal) * face.normal;
     const double size = std::max(max_component(abs(moved)), max_component(abs(face.corner)));
     const Vec3 out = towards_outside(face.normal, face.shading_normal, outside);
-    return {moved, rounding_of(size), out, face.is_patch ? face.shading_normal : out};
+    return on_face(moved, rounding_of(size), out, face.is_patch ? face.shading_normal : out);
 }
 
 Vec3 normal_of(const std::array<Vec3, 3>& corners) {
@@ -99,13 +100,13 @@ PlaneFace mesh_face(Vec3 point, const Mesh& mesh, std::uint32_t triangle) {
          mesh.normals[indices[first + 2]]});
 }
 
-LocalSurface sphere_surface(Vec3 point, const Sphere& sphere) {
+SurfacePoint sphere_surface(Vec3 point, const Sphere& sphere) {
     const Vec3 normal = normalized(point - sphere.center);
     const double size = max_component(abs(sphere.center)) + sphere.radius;
-    return {sphere.center + sphere.radius * normal, rounding_of(size), normal, normal};
+    return on_face(sphere.center + sphere.radius * normal, rounding_of(size), normal, normal);
 }
 
-LocalSurface rotational_surface(Vec3 point, const RotationalShape& shape, std::uint32_t piece) {
+SurfacePoint rotational_surface(Vec3 point, const RotationalShape& shape, std::uint32_t piece) {
     const Vec3 from_base = point - shape.base;
     const double h = dot(from_base, shape.axis);
     const Vec3 from_axis = from_base - h * shape.axis;
@@ -124,41 +125,42 @@ LocalSurface rotational_surface(Vec3 point, const RotationalShape& shape, std::u
     const double off = (r - at.r) * out.r + (h - at.h) * out.h;
     const Vec3 normal = normalized(out.r * outwards + out.h * shape.axis);
     const double reach = max_component(abs(shape.base)) + std::abs(at.h) + at.r;
-    return {point - off * normal, 4 * rounding_of(reach), normal, normal};
+    return on_face(point - off * normal, 4 * rounding_of(reach), normal, normal);
 }
 
-LocalSurface
+/// The place on the element's face in the coordinates of its own geometry, without material and
+/// face.
+SurfacePoint
 local_surface(const Geometry& geometry, Element element, std::uint32_t piece, Vec3 point) {
     const Item& item = geometry.items[element.item];
-    PlaneFace face;
+    const auto on_plane = [&](const PlaneFace& face) {
+        return plane_surface(point, face, item.outside);
+    };
     switch (item.kind) {
     case ItemKind::sphere:
         return sphere_surface(point, geometry.spheres[item.index]);
     case ItemKind::rotational_shape:
         return rotational_surface(point, geometry.rotational_shapes[item.index], piece);
     case ItemKind::triangle:
-        face = triangle_face(geometry.triangles[item.index].corners);
-        break;
+        return on_plane(triangle_face(geometry.triangles[item.index].corners));
     case ItemKind::polygon:
-        face = polygon_face(geometry, geometry.polygons[item.index], piece);
-        break;
+        return on_plane(polygon_face(geometry, geometry.polygons[item.index], piece));
     case ItemKind::patch: {
         const Patch& patch = geometry.patches[item.index];
-        face = patch_face(point, patch.corners, patch.normals);
-        break;
+        return on_plane(patch_face(point, patch.corners, patch.normals));
     }
     case ItemKind::mesh:
-        face = mesh_face(point, geometry.meshes[item.index], element.triangle);
-        break;
+        return on_plane(mesh_face(point, geometry.meshes[item.index], element.triangle));
     case ItemKind::subscene_call:
-        VERA_CHECK(item.kind != ItemKind::subscene_call);
+        break;
     }
-    return plane_surface(point, face, item.outside);
+    VERA_CHECK(item.kind != ItemKind::subscene_call);
+    return {};
 }
 
 /// The place in the main scene's coordinates.
-LocalSurface carried(const PrimitivePath& path, const LocalSurface& local) {
-    LocalSurface world;
+SurfacePoint carried(const PrimitivePath& path, const SurfacePoint& local) {
+    SurfacePoint world;
     world.point = transformed_point(path.to_world, local.point);
     const Vec3 size = abs(local.point);
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -238,35 +240,36 @@ PrimitivePath path_to(const Scene& scene, std::uint64_t primitive) {
     }
 }
 
+namespace {
+
+SurfacePoint surface_in_main_scene(const Scene& scene, Location location, Vec3 point, FaceId face) {
+    const Element element = {location.item, static_cast<std::uint32_t>(location.within)};
+    SurfacePoint at = local_surface(scene.geometry, element, face.piece, point);
+    at.material = scene.geometry.items[element.item].material;
+    at.face = face;
+    return at;
+}
+
+// Apart, so that the usual way is not burdened with its matrices.
+[[gnu::noinline]] SurfacePoint surface_in_subscene(const Scene& scene, Vec3 point, FaceId face) {
+    const PrimitivePath path = path_to(scene, face.primitive);
+    const Vec3 local_point = transformed_point(path.from_world, point);
+    SurfacePoint at =
+        carried(path, local_surface(*path.geometry, path.element, face.piece, local_point));
+    at.material = path.material;
+    at.face = face;
+    return at;
+}
+
+} // namespace
+
 SurfacePoint surface_at(const Scene& scene, const Ray& ray, const Hit& hit) {
-    const Geometry* geometry = &scene.geometry;
-    VERA_CHECK(hit.face.primitive < geometry->primitive_count);
-    const Location location = location_of(*geometry, hit.face.primitive);
-    Element element = {location.item, static_cast<std::uint32_t>(location.within)};
-    MaterialId material = geometry->items[element.item].material;
-    Vec3 point = point_at(ray, hit.t);
-
-    const bool in_main_scene = geometry->items[element.item].kind != ItemKind::subscene_call;
-    std::optional<PrimitivePath> path;
-    if (!in_main_scene) {
-        path = path_to(scene, hit.face.primitive);
-        geometry = path->geometry;
-        element = path->element;
-        material = path->material;
-        point = transformed_point(path->from_world, point);
-    }
-    LocalSurface surface = local_surface(*geometry, element, hit.face.piece, point);
-    if (!in_main_scene)
-        surface = carried(*path, surface);
-
-    SurfacePoint result;
-    result.point = surface.point;
-    result.point_error = surface.point_error;
-    result.geometric_normal = surface.geometric_normal;
-    result.shading_normal = surface.shading_normal;
-    result.material = material;
-    result.face = hit.face;
-    return result;
+    VERA_CHECK(hit.face.primitive < scene.geometry.primitive_count);
+    const Location location = location_of(scene.geometry, hit.face.primitive);
+    const Vec3 point = point_at(ray, hit.t);
+    if (scene.geometry.items[location.item].kind == ItemKind::subscene_call)
+        return surface_in_subscene(scene, point, hit.face);
+    return surface_in_main_scene(scene, location, point, hit.face);
 }
 
 } // namespace vera
