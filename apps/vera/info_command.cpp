@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/accel/grid_tree.h"
+#include "vera/accel/wide_bvh.h"
 #include "vera/scene/bounds.h"
 
 #include "command.h"
@@ -72,7 +73,7 @@ nlohmann::ordered_json scene_json(const Scene& scene) {
     return json;
 }
 
-nlohmann::ordered_json grid_json(const GridForecast& forecast, const GridTreeStatistics& grid) {
+nlohmann::ordered_json grid_json(const IndexForecast& forecast, const GridTreeStatistics& grid) {
     return {
         {"forecast_bytes", forecast.bytes},
         {"memory_bytes", grid.bytes},
@@ -82,6 +83,16 @@ nlohmann::ordered_json grid_json(const GridForecast& forecast, const GridTreeSta
         {"empty_cells", grid.empty_cells},
         {"references", grid.references},
         {"longest_list", grid.longest_list}};
+}
+
+nlohmann::ordered_json bvh_json(const IndexForecast& forecast, const WideBvhStatistics& bvh) {
+    return {
+        {"forecast_bytes", forecast.bytes},
+        {"memory_bytes", bvh.bytes},
+        {"nodes", bvh.nodes},
+        {"levels", bvh.levels},
+        {"blocks", bvh.blocks},
+        {"elements", bvh.elements}};
 }
 
 std::string bytes_text(double bytes) {
@@ -122,7 +133,7 @@ void print_scene(const nlohmann::ordered_json& scene) {
     }
 }
 
-void print_grid(const GridForecast& forecast, const GridTreeStatistics& grid) {
+void print_grid(const IndexForecast& forecast, const GridTreeStatistics& grid) {
     const double cells = static_cast<double>(std::max<std::uint64_t>(grid.cells, 1));
     const double full =
         static_cast<double>(std::max<std::uint64_t>(grid.cells - grid.empty_cells, 1));
@@ -143,21 +154,39 @@ void print_grid(const GridForecast& forecast, const GridTreeStatistics& grid) {
         bytes_text(static_cast<double>(forecast.bytes)));
 }
 
+void print_bvh(const IndexForecast& forecast, const WideBvhStatistics& bvh) {
+    fmt::print("hierarchy of boxes\n");
+    fmt::print("  nodes             {}, in {} levels\n", bvh.nodes, bvh.levels);
+    fmt::print(
+        "  blocks            {}, with {:.2f} elements each\n",
+        bvh.blocks,
+        static_cast<double>(bvh.elements)
+            / static_cast<double>(std::max<std::size_t>(bvh.blocks, 1)));
+    fmt::print(
+        "  memory            {} (forecast: {})\n",
+        bytes_text(static_cast<double>(bvh.bytes)),
+        bytes_text(static_cast<double>(forecast.bytes)));
+}
+
 void print_info(const Request& request, const Console& console) {
     const PreparedScene prepared = prepared_scene(request.scene);
     print_diagnostics(prepared.warnings, console);
     const GridSettings settings;
-    const GridForecast forecast = grid_forecast(prepared.scene, settings);
+    const IndexForecast bvh_forecast = wide_bvh_forecast(prepared.scene);
+    const IndexForecast forecast = grid_forecast(prepared.scene, settings);
+    const WideBvhStatistics bvh = make_wide_bvh(prepared.scene, {}, &console.cancel)->statistics();
     ProgressDisplay display(console, "index");
     const GridTreeStatistics grid =
         make_grid_tree(prepared.scene, settings, display.callback(), &console.cancel)->statistics();
     nlohmann::ordered_json json = scene_json(prepared.scene);
     if (request.json) {
+        json["bvh"] = bvh_json(bvh_forecast, bvh);
         json["grid"] = grid_json(forecast, grid);
         fmt::print("{}\n", json.dump(2));
         return;
     }
     print_scene(json);
+    print_bvh(bvh_forecast, bvh);
     print_grid(forecast, grid);
 }
 
@@ -167,7 +196,7 @@ void print_info(const Request& request, const Console& console) {
 void add_info_command(CLI::App& app, Console& console) {
     const auto request = std::make_shared<Request>();
 
-    CLI::App* info = app.add_subcommand("info", "what a scene holds, and its tree of grids");
+    CLI::App* info = app.add_subcommand("info", "what a scene holds, and what its indexes take");
     add_scene_options(*info, request->scene);
     info->add_flag("--json", request->json, "the same as JSON");
     add_console_options(*info, console);

@@ -48,36 +48,6 @@ TEST(GridTree, AgreesWithBruteForceOnEveryBit) {
     }
 }
 
-TEST(GridTree, AgreesInAnyUnitOfLengthAndScalesItsAnswers) {
-    RandomSceneSettings settings;
-    for (const std::uint64_t seed : {3U, 14U, 15U}) {
-        settings.scale = 1;
-        const Scene scene = random_scene(seed, settings);
-        const auto rays = mixed_rays(seed, 1);
-        const Answers expected = answers(*make_grid_tree(scene), rays);
-        for (const double scale : {0x1p-20, 0x1p20, 0x1p-200, 0x1p200}) {
-            settings.scale = scale;
-            const Scene copy = random_scene(seed, settings);
-            auto copied_rays = rays;
-            for (QueryRay& query : copied_rays) {
-                query.ray.origin = scale * query.ray.origin;
-                query.ray.t_min *= scale;
-                query.ray.t_max *= scale;
-                query.ray.origin_error *= scale;
-            }
-            expect_grid_like_brute_force(copy, copied_rays, {}, "scale " + std::to_string(scale));
-            if (scale < 0x1p-100 || scale > 0x1p100)
-                continue; // squares of squares lose digits there
-            const Answers found = answers(*make_grid_tree(copy), copied_rays);
-            for (std::size_t i = 0; i < rays.size(); ++i) {
-                ASSERT_EQ(found.hits[i].t, scale * expected.hits[i].t) << scale;
-                ASSERT_EQ(found.hits[i].face, expected.hits[i].face) << scale;
-            }
-            EXPECT_EQ(found.hit_counts.tests, expected.hit_counts.tests) << scale;
-        }
-    }
-}
-
 TEST(GridTree, GivesTheSameBitsWithEveryInstructionSet) {
     RandomSceneSettings settings;
     settings.items = 60;
@@ -150,81 +120,6 @@ TEST(GridTree, TestsNoPrimitiveTwiceForARay) {
     }
 }
 
-TEST(GridTree, FindsTheFirstInTheTextOfManyCoincidentFaces) {
-    Scene scene;
-    // Each a little farther than the next, all within rounding of the first.
-    for (std::uint32_t i = 0; i < 20; ++i) {
-        const double z = 1 - 0x1p-50 * i;
-        scene.geometry.triangles.push_back({{Vec3{0, 0, z}, {1, 0, z}, {0, 1, z}}});
-        scene.geometry.items.push_back({.kind = ItemKind::triangle, .index = i});
-    }
-    number_primitives(scene);
-    QueryRay query;
-    query.ray.origin = {0.25, 0.25, 0};
-    query.ray.direction = {0, 0, 1};
-    const std::vector<QueryRay> rays(20, query);
-    expect_grid_like_brute_force(scene, rays, {}, "coincident");
-    const Answers found = answers(*make_grid_tree(scene), rays);
-    EXPECT_EQ(found.hits.back().face, (FaceId{0, 0}));
-    EXPECT_EQ(found.hits.back().t, 1);
-}
-
-TEST(GridTree, HoldsSubscenesNestedTenThousandDeep) {
-    Scene scene;
-    constexpr std::uint32_t levels = 10'000;
-    scene.subscenes.resize(levels);
-    const auto call = [](std::uint32_t subscene) {
-        SubsceneCall result;
-        result.subscene = SubsceneId{subscene};
-        result.to_parent = translation({0, 0, 0.5});
-        result.from_parent = *inverse(result.to_parent);
-        return result;
-    };
-    for (std::uint32_t i = 1; i < levels; ++i) {
-        scene.subscenes[i].calls.push_back(call(i - 1));
-        scene.subscenes[i].items.push_back({.kind = ItemKind::subscene_call});
-    }
-    scene.subscenes[0].spheres.push_back({{0, 0, 0}, 1});
-    scene.subscenes[0].items.push_back({.kind = ItemKind::sphere});
-    scene.geometry.calls.push_back(call(levels - 1));
-    scene.geometry.items.push_back({.kind = ItemKind::subscene_call});
-    number_primitives(scene);
-    QueryRay query;
-    query.ray.direction = {0, 0, 1};
-    const std::vector<QueryRay> rays(2, query);
-    expect_grid_like_brute_force(scene, rays, {}, "nested");
-    EXPECT_EQ(answers(*make_grid_tree(scene), rays).hits[0].t, 4999);
-}
-
-TEST(GridTree, TakesScenesOfNothingOrAlmostNothing) {
-    Scene scene;
-    const auto rays = mixed_rays(2, 1);
-    number_primitives(scene);
-    expect_grid_like_brute_force(scene, rays, {}, "empty");
-
-    scene.subscenes.resize(1);
-    scene.geometry.calls.push_back({});
-    scene.geometry.items.push_back({.kind = ItemKind::subscene_call});
-    number_primitives(scene);
-    expect_grid_like_brute_force(scene, rays, {}, "empty subscene");
-
-    for (std::uint32_t i = 0; i < 40; ++i) {
-        const double x = i % 8;
-        scene.geometry.triangles.push_back({{Vec3{x, 0, 1}, {x + 1, 0, 1}, {x, 1, 1}}});
-        scene.geometry.items.push_back({.kind = ItemKind::triangle, .index = i});
-    }
-    number_primitives(scene);
-    expect_grid_like_brute_force(scene, rays, {}, "flat");
-}
-
-TEST(GridTree, AnswersRaysThatGoNowhere) {
-    const Scene scene = random_scene(4, {});
-    std::vector<QueryRay> rays(3);
-    rays[1].ray.direction = {1e-200, 0, 0};
-    rays[2].ray.direction = {0, 1e200, 1e190};
-    expect_grid_like_brute_force(scene, rays, {}, "strange directions");
-}
-
 TEST(GridTree, GivesSmallDetailInALargeRoomGridsOfItsOwn) {
     const Scene scene = detail_in_a_room();
     const auto grid = make_grid_tree(scene);
@@ -249,7 +144,7 @@ TEST(GridForecast, CoversTheTreeAndRefusesWhatDoesNotFit) {
         RandomSceneSettings settings;
         settings.items = 400;
         const Scene scene = random_scene(seed, settings);
-        const GridForecast forecast = grid_forecast(scene);
+        const IndexForecast forecast = grid_forecast(scene);
         const std::size_t bytes = make_grid_tree(scene)->statistics().bytes;
         EXPECT_GE(forecast.bytes, bytes);
         EXPECT_LE(forecast.bytes, 10 * bytes);
@@ -258,19 +153,6 @@ TEST(GridForecast, CoversTheTreeAndRefusesWhatDoesNotFit) {
         excessive.crowd_density = 1e12;
         EXPECT_THROW(make_grid_tree(scene, excessive), std::runtime_error);
     }
-}
-
-TEST(GridTree, CanBeInterruptedAndTellsHowFarItIs) {
-    const Scene scene = random_scene(1, {});
-    double last = 0;
-    make_grid_tree(scene, {}, [&](double done) {
-        EXPECT_GE(done, last);
-        last = done;
-    });
-    EXPECT_EQ(last, 1);
-    CancelFlag cancel;
-    cancel.raise();
-    EXPECT_THROW(make_grid_tree(scene, {}, {}, &cancel), Cancelled);
 }
 
 } // namespace

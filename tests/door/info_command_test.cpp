@@ -4,13 +4,21 @@
 namespace vera {
 namespace {
 
-TEST(InfoCommand, TellsWhatASceneHoldsAndTheTreeOfGrids) {
+TEST(InfoCommand, TellsWhatASceneHoldsAndItsIndexes) {
     const ScratchFolder folder;
     folder.write("a.vera", small_scene);
     const ProgramRun run = run_vera(folder, "info a.vera");
     EXPECT_EQ(run.exit_code, 0) << run.err;
     for (const char* part :
-         {"primitives", "spheres", "bounds", "lights", "grid", "cells", "memory"})
+         {"primitives",
+          "spheres",
+          "bounds",
+          "lights",
+          "hierarchy of boxes",
+          "nodes",
+          "grid",
+          "cells",
+          "memory"})
         EXPECT_NE(run.out.find(part), std::string::npos) << part << '\n' << run.out;
 }
 
@@ -19,7 +27,8 @@ TEST(InfoCommand, TellsTheSameAsJson) {
     folder.write("a.vera", small_scene);
     const ProgramRun run = run_vera(folder, "info a.vera --json");
     EXPECT_EQ(run.exit_code, 0) << run.err;
-    for (const char* part : {"\"primitives\": 2", "\"spheres\": 1", "\"polygons\": 1", "\"grid\""})
+    for (const char* part :
+         {"\"primitives\": 2", "\"spheres\": 1", "\"polygons\": 1", "\"bvh\"", "\"grid\""})
         EXPECT_NE(run.out.find(part), std::string::npos) << part << '\n' << run.out;
 }
 

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "base/memory_is_watched.h"
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -178,16 +179,6 @@ std::size_t peak_growth(const std::filesystem::path& path) {
     std::size_t growth = 0;
     std::ifstream(answer.path()) >> growth;
     return growth;
-}
-
-constexpr bool memory_is_watched() {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-    return true;
-#elif defined(__has_feature)
-    return __has_feature(address_sanitizer) || __has_feature(thread_sanitizer);
-#else
-    return false;
-#endif
 }
 
 std::string repeated(std::string_view line, std::size_t bytes) {

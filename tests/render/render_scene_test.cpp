@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <vector>
 
+#include "base/memory_is_watched.h"
 #include "reference/reference_renderer.h"
 #include "test_scenes.h"
 #include <gtest/gtest.h>
@@ -88,17 +89,6 @@ std::vector<PictureSettings> settings_with_and_without_antialiasing() {
     PictureSettings without = with;
     without.antialiasing.on = false;
     return {with, without};
-}
-
-/// Whether this build watches its memory, and so needs much of it.
-constexpr bool memory_is_watched() {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-    return true;
-#elif defined(__has_feature)
-    return __has_feature(address_sanitizer) || __has_feature(thread_sanitizer);
-#else
-    return false;
-#endif
 }
 
 TEST(RenderScene, GivesTheSameBytesAndCountsForAnyNumberOfThreads) {

@@ -6,9 +6,9 @@
 
 namespace vera {
 
-GridForecast grid_forecast(const Scene& scene, const GridSettings& settings) {
+IndexForecast grid_forecast(const Scene& scene, const GridSettings& settings) {
     const std::vector<Box3> boxes = subscene_bounds(scene);
-    GridForecast forecast;
+    IndexForecast forecast;
     forecast.bytes = detail::forecast_bytes(scene.geometry, boxes, settings);
     for (const Geometry& subscene : scene.subscenes)
         forecast.bytes += detail::forecast_bytes(subscene, boxes, settings);

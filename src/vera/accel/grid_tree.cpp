@@ -15,42 +15,17 @@ namespace {
 
 using detail::GeometryGrids;
 
-class TreeOfGrids : public GridTree {
+class TreeOfGrids : public detail::PacketIndex<GridTree, GeometryGrids> {
 public:
-    TreeOfGrids(const Scene& scene, std::vector<GeometryGrids> geometries)
-        : geometries_(std::move(geometries)) {
-        searched_.scene = &scene;
-        searched_.opaque = detail::is_opaque(scene);
-        searched_.search = detail::search_grids;
-        for (const GeometryGrids& grids : geometries_)
-            searched_.geometries.push_back(&grids);
-    }
-
-    void nearest_hits(
-        std::span<const QueryRay> rays, std::span<Hit> hits, QueryCounts& counts) const override {
-        detail::find_nearest_hits(searched_, rays, hits, counts);
-    }
-
-    void transmittances(
-        std::span<const QueryRay> rays,
-        std::span<Color> transmitted,
-        QueryCounts& counts) const override {
-        detail::find_transmittances(searched_, rays, transmitted, counts);
-    }
-
-    std::size_t memory() const override { return statistics().bytes; }
+    using PacketIndex::PacketIndex;
 
     GridTreeStatistics statistics() const override;
-
-private:
-    std::vector<GeometryGrids> geometries_;
-    detail::SearchedScene searched_;
 };
 
 GridTreeStatistics TreeOfGrids::statistics() const {
     GridTreeStatistics result;
-    result.geometries = geometries_.size();
-    for (const GeometryGrids& grids : geometries_) {
+    result.geometries = made().size();
+    for (const GeometryGrids& grids : made()) {
         result.levels = std::max(result.levels, grids.levels);
         result.grids += grids.grids.size();
         result.cells += grids.cells.size();
@@ -78,26 +53,13 @@ std::unique_ptr<GridTree> make_grid_tree(
     const Progress& progress,
     const CancelFlag* cancel) {
     honour_simd_environment();
-    const GridForecast forecast = grid_forecast(scene, settings);
-    detail::refuse_index_that_does_not_fit(
-        "the tree of grids", forecast.bytes, forecast.available_bytes);
+    detail::refuse_index_that_does_not_fit("the tree of grids", grid_forecast(scene, settings));
     const std::vector<Box3> boxes = subscene_bounds(scene);
-    std::vector<GeometryGrids> geometries;
-    geometries.reserve(scene.subscenes.size() + 1);
-    double elements = static_cast<double>(scene.geometry.element_count);
-    for (const Geometry& subscene : scene.subscenes)
-        elements += static_cast<double>(subscene.element_count);
-    double done = 0;
-    const auto build = [&](const Geometry& geometry) {
-        geometries.push_back(detail::build_geometry_grids(geometry, boxes, settings, cancel));
-        done += static_cast<double>(geometry.element_count);
-        if (progress)
-            progress(elements > 0 ? done / elements : 1);
-    };
-    build(scene.geometry);
-    for (const Geometry& subscene : scene.subscenes)
-        build(subscene);
-    return std::make_unique<TreeOfGrids>(scene, std::move(geometries));
+    auto grids =
+        detail::made_of_geometries<GeometryGrids>(scene, progress, [&](const Geometry& geometry) {
+            return detail::build_geometry_grids(geometry, boxes, settings, cancel);
+        });
+    return std::make_unique<TreeOfGrids>(scene, std::move(grids), detail::search_grids);
 }
 
 } // namespace vera

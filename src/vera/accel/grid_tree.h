@@ -51,11 +51,6 @@ std::unique_ptr<GridTree> make_grid_tree(
     const CancelFlag* cancel = nullptr);
 
 /// What building the tree will take, estimated from a sample of the elements.
-struct GridForecast {
-    std::size_t bytes = 0;           ///< of the tree, and of what its build needs beside it
-    std::size_t available_bytes = 0; ///< what the machine has to give now
-};
-
-GridForecast grid_forecast(const Scene& scene, const GridSettings& settings = {});
+IndexForecast grid_forecast(const Scene& scene, const GridSettings& settings = {});
 
 } // namespace vera

@@ -4,8 +4,11 @@
 #include "vera/accel/local_geometry.h"
 #include "vera/accel/packet_query.h"
 #include "vera/accel/ray_index.h"
+#include "vera/accel/searches.h"
+#include "vera/base/parallel.h"
 
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace vera::detail {
@@ -31,5 +34,63 @@ void find_transmittances(
     std::span<const QueryRay> rays,
     std::span<Color> transmitted,
     QueryCounts& counts);
+
+/// A kind of RayIndex that answers packet by packet from what it has made of each geometry, which
+/// is a LocalGeometry and more.
+template <typename Index, typename Made>
+class PacketIndex : public Index {
+public:
+    PacketIndex(const Scene& scene, std::vector<Made> made, void (*search)(PacketQuery& query))
+        : made_(std::move(made)) {
+        searched_.scene = &scene;
+        searched_.opaque = is_opaque(scene);
+        searched_.search = search;
+        for (const Made& of_geometry : made_)
+            searched_.geometries.push_back(&of_geometry);
+    }
+
+    void nearest_hits(
+        std::span<const QueryRay> rays, std::span<Hit> hits, QueryCounts& counts) const override {
+        find_nearest_hits(searched_, rays, hits, counts);
+    }
+
+    void transmittances(
+        std::span<const QueryRay> rays,
+        std::span<Color> transmitted,
+        QueryCounts& counts) const override {
+        find_transmittances(searched_, rays, transmitted, counts);
+    }
+
+    std::size_t memory() const override { return this->statistics().bytes; }
+
+protected:
+    const std::vector<Made>& made() const { return made_; }
+
+private:
+    std::vector<Made> made_;
+    SearchedScene searched_;
+};
+
+/// What build(geometry) makes of the main scene, then of the subscenes.
+template <typename Made, typename Build>
+std::vector<Made>
+made_of_geometries(const Scene& scene, const Progress& progress, const Build& build) {
+    std::vector<Made> made;
+    made.reserve(scene.subscenes.size() + 1);
+    double elements = static_cast<double>(scene.geometry.element_count);
+    for (const Geometry& subscene : scene.subscenes)
+        elements += static_cast<double>(subscene.element_count);
+    double done = 0;
+    const auto add = [&](const Geometry& geometry) {
+        made.push_back(build(geometry));
+        done += static_cast<double>(geometry.element_count);
+        if (progress)
+            progress(elements > 0 ? done / elements : 1);
+    };
+    add(scene.geometry);
+    for (const Geometry& subscene : scene.subscenes)
+        add(subscene);
+    return made;
+}
 
 } // namespace vera::detail

@@ -238,8 +238,9 @@ void test_exactly(PacketQuery& query, Frame& frame, std::uint32_t element, LaneM
     const bool plane = is_plane(geometry, place);
     for (LaneMask rest = lanes; rest != 0; rest &= rest - 1) {
         const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-        const bool starts_here = frame.start_element[lane] == element;
-        if (starts_here && plane)
+        const std::uint32_t start_piece =
+            frame.start_element[lane] == element ? query.rays[lane].start.piece : no_piece;
+        if (plane && start_piece != no_piece)
             continue;
         bool changed = false;
         for_each_crossing(
@@ -247,7 +248,7 @@ void test_exactly(PacketQuery& query, Frame& frame, std::uint32_t element, LaneM
             frame.local->outlines,
             place,
             prepared_ray(frame, lane),
-            starts_here ? query.rays[lane].start.piece : no_piece,
+            start_piece,
             [&](double t, std::uint32_t piece) {
                 changed = take_crossing(query, lane, t, {primitive, piece}, material) || changed;
             });

@@ -6,6 +6,7 @@
 #include "vera/scene/hit.h"
 #include "vera/scene/scene.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -30,6 +31,12 @@ struct QueryCounts {
         cells += more.cells;
         return *this;
     }
+};
+
+/// What an index will take.
+struct IndexForecast {
+    std::size_t bytes = 0;           ///< of the index, and of what its build needs beside it
+    std::size_t available_bytes = 0; ///< what the machine has to give now
 };
 
 /// Answers ray queries on a scene, which must outlive it and not change. Every index gives the same

@@ -419,14 +419,15 @@ BoxF rounded(const Box3& box) {
 
 } // namespace
 
-std::size_t forecast_tree_bytes(std::size_t elements) {
+std::size_t forecast_tree_bytes(const Geometry& geometry) {
     // Blocks are about 0.7 full, nodes have about 5 children; while the parts are joined, both are
     // held twice.
     constexpr double rows_of_element = 12.0 * sizeof(float) / 0.7;
     constexpr double nodes_of_element = sizeof(WideNode) / (5 * 0.7 * block_width);
     return static_cast<std::size_t>(
-        static_cast<double>(elements)
-        * (sizeof(Reference) + 2 * (rows_of_element + nodes_of_element)));
+        static_cast<double>(geometry.element_count)
+            * (sizeof(Reference) + 2 * (rows_of_element + nodes_of_element))
+        + static_cast<double>(most_memory_of_outline_table(geometry) + sizeof(GeometryTree)));
 }
 
 GeometryTree build_geometry_tree(

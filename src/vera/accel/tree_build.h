@@ -13,7 +13,7 @@ namespace vera::detail {
 GeometryTree build_geometry_tree(
     const Geometry& geometry, const std::vector<Box3>& subscene_bounds, const CancelFlag* cancel);
 
-/// The bytes that building the tree takes at its peak, about, of so many elements.
-std::size_t forecast_tree_bytes(std::size_t elements);
+/// The bytes that building this tree takes at its peak, about.
+std::size_t forecast_tree_bytes(const Geometry& geometry);
 
 } // namespace vera::detail

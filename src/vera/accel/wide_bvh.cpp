@@ -15,35 +15,14 @@ namespace {
 
 using detail::GeometryTree;
 
-class ForestOfBoxes : public WideBvh {
+class ForestOfBoxes : public detail::PacketIndex<WideBvh, GeometryTree> {
 public:
-    ForestOfBoxes(const Scene& scene, std::vector<GeometryTree> trees)
-        : trees_(std::move(trees)) {
-        searched_.scene = &scene;
-        searched_.opaque = detail::is_opaque(scene);
-        searched_.search = detail::search_trees;
-        for (const GeometryTree& tree : trees_)
-            searched_.geometries.push_back(&tree);
-    }
-
-    void nearest_hits(
-        std::span<const QueryRay> rays, std::span<Hit> hits, QueryCounts& counts) const override {
-        detail::find_nearest_hits(searched_, rays, hits, counts);
-    }
-
-    void transmittances(
-        std::span<const QueryRay> rays,
-        std::span<Color> transmitted,
-        QueryCounts& counts) const override {
-        detail::find_transmittances(searched_, rays, transmitted, counts);
-    }
-
-    std::size_t memory() const override { return statistics().bytes; }
+    using PacketIndex::PacketIndex;
 
     WideBvhStatistics statistics() const override {
         WideBvhStatistics result;
-        result.geometries = trees_.size();
-        for (const GeometryTree& tree : trees_) {
+        result.geometries = made().size();
+        for (const GeometryTree& tree : made()) {
             result.levels = std::max(result.levels, tree.levels);
             result.nodes += tree.nodes.size();
             result.blocks += tree.blocks;
@@ -53,41 +32,29 @@ public:
         }
         return result;
     }
-
-private:
-    std::vector<GeometryTree> trees_;
-    detail::SearchedScene searched_;
 };
 
-std::size_t element_count(const Scene& scene) {
-    std::size_t count = scene.geometry.element_count;
-    for (const Geometry& subscene : scene.subscenes)
-        count += subscene.element_count;
-    return count;
-}
-
 } // namespace
+
+IndexForecast wide_bvh_forecast(const Scene& scene) {
+    IndexForecast forecast;
+    forecast.bytes = detail::forecast_tree_bytes(scene.geometry);
+    for (const Geometry& subscene : scene.subscenes)
+        forecast.bytes += detail::forecast_tree_bytes(subscene);
+    forecast.available_bytes = detail::memory_to_give();
+    return forecast;
+}
 
 std::unique_ptr<WideBvh>
 make_wide_bvh(const Scene& scene, const Progress& progress, const CancelFlag* cancel) {
     honour_simd_environment();
-    const std::size_t elements = element_count(scene);
-    detail::refuse_index_that_does_not_fit(
-        "the hierarchy of boxes", detail::forecast_tree_bytes(elements), detail::memory_to_give());
+    detail::refuse_index_that_does_not_fit("the hierarchy of boxes", wide_bvh_forecast(scene));
     const std::vector<Box3> boxes = subscene_bounds(scene);
-    std::vector<GeometryTree> trees;
-    trees.reserve(scene.subscenes.size() + 1);
-    std::size_t done = 0;
-    const auto build = [&](const Geometry& geometry) {
-        trees.push_back(detail::build_geometry_tree(geometry, boxes, cancel));
-        done += geometry.element_count;
-        if (progress)
-            progress(elements > 0 ? static_cast<double>(done) / static_cast<double>(elements) : 1);
-    };
-    build(scene.geometry);
-    for (const Geometry& subscene : scene.subscenes)
-        build(subscene);
-    return std::make_unique<ForestOfBoxes>(scene, std::move(trees));
+    auto trees =
+        detail::made_of_geometries<GeometryTree>(scene, progress, [&](const Geometry& geometry) {
+            return detail::build_geometry_tree(geometry, boxes, cancel);
+        });
+    return std::make_unique<ForestOfBoxes>(scene, std::move(trees), detail::search_trees);
 }
 
 } // namespace vera

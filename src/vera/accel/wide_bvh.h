@@ -36,4 +36,7 @@ public:
 std::unique_ptr<WideBvh> make_wide_bvh(
     const Scene& scene, const Progress& progress = {}, const CancelFlag* cancel = nullptr);
 
+/// What building it will take, estimated from the number of elements.
+IndexForecast wide_bvh_forecast(const Scene& scene);
+
 } // namespace vera
