@@ -50,7 +50,7 @@ INSTANTIATE_TEST_SUITE_P(
             [](const Scene& scene, const Progress& progress, const CancelFlag* cancel) {
                 return make_wide_bvh(scene, progress, cancel);
             }}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& kind) { return kind.param.name; });
 
 TEST_P(EveryIndex, AgreesWithBruteForceOnEveryBit) {
     for (std::uint64_t seed = 0; seed < 30; ++seed) {

@@ -7,14 +7,7 @@
 #include <utility>
 
 #include <hwy/highway.h>
-#include <hwy/nanobenchmark.h>
 #include <hwy/targets.h>
-
-/// Takes the place of the function in Highway's library, which calls it when a program starts, for
-/// measurements that nobody here makes, and is longer at it than at loading the library.
-std::uint64_t hwy::platform::TimerResolution() {
-    return 1;
-}
 
 namespace vera {
 
