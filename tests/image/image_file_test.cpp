@@ -144,6 +144,30 @@ TEST_F(ImageFile, IsAPfmFromTheBottomUp) {
         content(folder_ / "a.pfm"), "PF\n1 2\n-1.0\n" + one + one + one + std::string(12, '\0'));
 }
 
+TEST_F(ImageFile, ComesBackFromPngAtEveryCompressionWhateverItsRowsAreLike) {
+    std::mt19937 random(1988);
+    constexpr std::uint16_t values[] = {0, 1, 2, 127, 128, 255, 256, 65535};
+    for (int round = 0; round < 60; ++round) {
+        // Up to some chunks of data; rows that repeat pixels, or the row above.
+        const std::size_t width = 1 + random() % (round % 6 == 0 ? 300 : 5);
+        const std::size_t height = 1 + random() % (round % 6 == 0 ? 300 : 5);
+        std::vector<std::uint16_t> samples(3 * width * height);
+        for (std::size_t i = 0; i < samples.size(); ++i)
+            samples[i] = i >= 3 * width && random() % 2 == 0 ? samples[i - 3 * width]
+                : i >= 3 && random() % 2 == 0                ? samples[i - 3]
+                                                             : values[random() % 8];
+        const ImageWriteSettings settings = {.png_compression = round % 10};
+        const Image image = {width, height, samples};
+        write_image(image, folder_ / "a.png", ImageFileFormat::png16, {}, settings);
+        EXPECT_EQ(read_image(folder_ / "a.png").samples, image.samples) << "round " << round;
+
+        const Image small = {
+            width, height, std::vector<std::uint8_t>(samples.begin(), samples.end())};
+        write_image(small, folder_ / "a.png", ImageFileFormat::png8, {}, settings);
+        EXPECT_EQ(read_image(folder_ / "a.png").samples, small.samples) << "round " << round;
+    }
+}
+
 TEST_F(ImageFile, HasTheHighByteFirstInPng) {
     const Image image = {1, 1, std::vector<std::uint16_t>{0x1234, 7, 0xfffe}};
     write_image(image, folder_ / "a.png", ImageFileFormat::png16, {}, {.png_compression = 0});
