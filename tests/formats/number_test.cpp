@@ -10,6 +10,8 @@
 #include <random>
 #include <string>
 #include <string_view>
+#include <system_error>
+#include <vector>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -75,6 +77,37 @@ TEST(ScanNumber, SaysWhatIsTooLargeAndRoundsToZeroWhatIsTooSmall) {
     EXPECT_EQ(scanned(fmt::format("0.{:05001}", 1)).value, 0);
     EXPECT_EQ(scanned(fmt::format("1{:0400}", 0)).outcome, Outcome::too_large);
     EXPECT_EQ(scanned(fmt::format("1{:0400}e-400", 0)).value, 1);
+}
+
+TEST(ScanNumber, ReadsEveryShortTextAsFromCharsDoes) {
+    constexpr std::string_view letters = "0123456789.-+e \n\r/x";
+    std::size_t count = 1;
+    for (std::size_t length = 1; length <= 4; ++length) {
+        count *= letters.size();
+        std::vector<char> text(length);
+        for (std::size_t number = 0; number < count; ++number) {
+            std::size_t rest = number;
+            for (char& letter : text) {
+                letter = letters[rest % letters.size()];
+                rest /= letters.size();
+            }
+            const char* const begin = text.data();
+            const char* const end = begin + length;
+            // from_chars takes no plus.
+            const bool plus = text[0] == '+';
+            double expected = 0;
+            const auto [stop, error] = std::from_chars(begin + (plus ? 1 : 0), end, expected);
+            const bool good = error == std::errc{} && !(plus && length > 1 && text[1] == '-');
+            const ScannedNumber read = scan_number(begin, end);
+            const std::string_view shown(begin, length);
+            ASSERT_EQ(read.outcome, good ? Outcome::good : Outcome::not_a_number) << shown;
+            ASSERT_EQ(read.end, good ? stop : begin) << shown;
+            ASSERT_EQ(
+                std::bit_cast<std::uint64_t>(read.value),
+                std::bit_cast<std::uint64_t>(good ? expected : 0.0))
+                << shown;
+        }
+    }
 }
 
 TEST(ScanNumber, RoundsHardCasesAsTheCLibraryDoes) {

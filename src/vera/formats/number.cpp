@@ -141,7 +141,7 @@ ScannedNumber scan_any_number(const char* begin, const char* end) {
 
 // Numbers of at most 19 digits without exponent, as almost all are, end here; others are read again
 // from their beginning.
-ScannedNumber scan_number(const char* begin, const char* end) {
+ScannedNumber detail::scan_longer_number(const char* begin, const char* end) {
     constexpr std::ptrdiff_t most_digits = 19;
     const char* p = begin;
     const bool negative = p != end && *p == '-';
