@@ -52,40 +52,39 @@ constexpr unsigned letter_pair(std::string_view word) {
 }
 
 /// The statements of two letters, those of which texts have most first. RS and RK begin the same.
-inline std::optional<Statement> short_statement_named(std::string_view word) {
-    constexpr std::array<std::pair<std::string_view, Statement>, 11> statements = {{
-        {"P3", Statement::triangle},
-        {"SP", Statement::sphere},
-        {"P4", Statement::quadrangle},
-        {"PA", Statement::patch},
-        {"CM", Statement::material_change},
-        {"IP", Statement::inner_point},
-        {"PN", Statement::polygon},
-        {"RS", Statement::rotational_shape},
-        {"RK", Statement::rotational_shape},
-        {"MA", Statement::material},
-        {"LI", Statement::light},
-    }};
-    const unsigned pair = letter_pair(word);
-    for (const auto& [name, statement] : statements)
-        if (pair == letter_pair(name))
-            return statement;
-    return std::nullopt;
-}
+constexpr std::array<std::pair<unsigned, Statement>, 11> short_statements = {{
+    {letter_pair("P3"), Statement::triangle},
+    {letter_pair("SP"), Statement::sphere},
+    {letter_pair("P4"), Statement::quadrangle},
+    {letter_pair("PA"), Statement::patch},
+    {letter_pair("CM"), Statement::material_change},
+    {letter_pair("IP"), Statement::inner_point},
+    {letter_pair("PN"), Statement::polygon},
+    {letter_pair("RS"), Statement::rotational_shape},
+    {letter_pair("RK"), Statement::rotational_shape},
+    {letter_pair("MA"), Statement::material},
+    {letter_pair("LI"), Statement::light},
+}};
+
+constexpr std::array<std::pair<std::string_view, Statement>, 6> long_statements = {{
+    {"SSC", Statement::subscene_call},
+    {"MESH", Statement::mesh},
+    {"SCENE", Statement::subscene},
+    {"INCLUDE", Statement::include},
+    {"PARALLEL", Statement::parallel},
+    {"PROJECTION", Statement::projection},
+}};
 
 /// The statement that a word begins, or nothing.
 inline std::optional<Statement> statement_named(std::string_view word) {
-    if (word.size() == 2)
-        return short_statement_named(word);
-    constexpr std::array<std::pair<std::string_view, Statement>, 6> statements = {{
-        {"SSC", Statement::subscene_call},
-        {"MESH", Statement::mesh},
-        {"SCENE", Statement::subscene},
-        {"INCLUDE", Statement::include},
-        {"PARALLEL", Statement::parallel},
-        {"PROJECTION", Statement::projection},
-    }};
-    for (const auto& [name, statement] : statements)
+    if (word.size() == 2) {
+        const unsigned pair = letter_pair(word);
+        for (const auto& [name, statement] : short_statements)
+            if (pair == name)
+                return statement;
+        return std::nullopt;
+    }
+    for (const auto& [name, statement] : long_statements)
         if (word == name)
             return statement;
     return std::nullopt;

@@ -188,7 +188,8 @@ void WordReader::expected(std::string_view what, std::string remedy) {
         place(), fmt::format("expected {}, found {}", what, found), std::move(remedy));
 }
 
-std::optional<double> WordReader::number(const char* part, const char* what) {
+// An optional number would be put together in memory: that takes longer than to read short ones.
+bool WordReader::take_number(double& value, const char* part, const char* what) {
     if (at_ != end_ && *at_ == ' ')
         ++at_;
     if (at_ == end_ || *at_ <= ' ' || *at_ == '(')
@@ -198,10 +199,11 @@ std::optional<double> WordReader::number(const char* part, const char* what) {
         scanned.end == end_ || is_space(*scanned.end) || word_end(scanned.end) == scanned.end;
     if (scanned.outcome != ScannedNumber::Outcome::good || !whole_word) {
         complain_of_number(part, what);
-        return std::nullopt;
+        return false;
     }
     at_ = scanned.end;
-    return scanned.value;
+    value = scanned.value;
+    return true;
 }
 
 void WordReader::complain_of_number(const char* part, const char* what) {
@@ -226,40 +228,34 @@ void WordReader::complain_of_number(const char* part, const char* what) {
 }
 
 std::optional<double> WordReader::take_number(const char* what) {
-    return number("", what);
+    double value = 0;
+    if (!take_number(value, "", what))
+        return std::nullopt;
+    return value;
 }
 
 std::optional<Vec3> WordReader::take_point(const char* what) {
-    const auto x = number("the x of ", what);
-    if (!x)
+    Vec3 point;
+    if (!take_number(point.x, "the x of ", what) || !take_number(point.y, "the y of ", what)
+        || !take_number(point.z, "the z of ", what))
         return std::nullopt;
-    const auto y = number("the y of ", what);
-    if (!y)
-        return std::nullopt;
-    const auto z = number("the z of ", what);
-    if (!z)
-        return std::nullopt;
-    return Vec3{*x, *y, *z};
+    return point;
 }
 
 std::optional<Color> WordReader::take_color(const char* what) {
-    const auto red = number("the red part of ", what);
-    if (!red)
+    Color color;
+    if (!take_number(color.r, "the red part of ", what)
+        || !take_number(color.g, "the green part of ", what)
+        || !take_number(color.b, "the blue part of ", what))
         return std::nullopt;
-    const auto green = number("the green part of ", what);
-    if (!green)
-        return std::nullopt;
-    const auto blue = number("the blue part of ", what);
-    if (!blue)
-        return std::nullopt;
-    return Color{*red, *green, *blue};
+    return color;
 }
 
 std::optional<std::uint64_t>
 WordReader::take_whole_number(const char* what, std::uint64_t smallest, std::uint64_t largest) {
     const WordPlace place = this->place();
     const std::string_view word = peek();
-    const auto value = number("", what);
+    const auto value = take_number(what);
     if (!value)
         return std::nullopt;
     if (!(*value >= static_cast<double>(smallest)) || !(*value <= static_cast<double>(largest))

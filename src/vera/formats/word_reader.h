@@ -88,7 +88,7 @@ private:
     const char* word_end(const char* word) const;
     WordPlace place_of(const char* word, std::size_t length) const;
     void complain_of_number(const char* part, const char* what);
-    std::optional<double> number(const char* part, const char* what);
+    bool take_number(double& value, const char* part, const char* what);
 
     const SourceText& text_;
     Complaints& complaints_;
