@@ -77,6 +77,10 @@ TEST(ReadObj, GivesFacesWithoutNormalsTheirOwnWhereOthersHaveSome) {
             triangle_normals(mesh, 1), ElementsAre(Vec3{5, 0, 0}, Vec3{5, 0, 0}, Vec3{5, 0, 0}));
         EXPECT_THAT(triangle_normals(mesh, 2), ElementsAre(up, up, up));
     }
+    const std::string as_positions = square + "vn 5 0 0\nvn 5 0 0\nvn 5 0 0\nf 1//1 2//2 3//3\n";
+    EXPECT_THAT(
+        mesh_of(read_obj, as_positions + "f 1 3 4\n").normal_indices,
+        ElementsAre(0, 1, 2, 3, 3, 3));
     EXPECT_TRUE(mesh_of(read_obj, square + "vn 5 0 0\nf 1 2 3\n").normals.empty());
 }
 

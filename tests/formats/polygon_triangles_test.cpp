@@ -49,6 +49,29 @@ TEST(SplitPolygon, FansAConvexPolygonRoundItsFirstCorner) {
     EXPECT_EQ(square.triangles, (std::vector<CornerTriple>{{0, 1, 2}, {0, 2, 3}}));
 }
 
+TEST(SplitPolygon, FansAQuadrangleWhoseCornersAllFaceItsWay) {
+    std::mt19937 random(1988);
+    const auto pick = [&] { return static_cast<double>(random() % 4) / 3; };
+    int fans = 0;
+    for (int round = 0; round < 20'000; ++round) {
+        std::vector<Vec3> corners;
+        for (int i = 0; i < 4; ++i)
+            corners.push_back({pick(), pick(), pick() / 8});
+        const Vec3 normal = cross(corners[2] - corners[0], corners[3] - corners[1]);
+        const auto faces_up = [&](const CornerTriple& triangle) {
+            return dot(doubled_area_vector(corners, triangle), normal) > 0;
+        };
+        if (!faces_up({3, 0, 1}) || !faces_up({0, 1, 2}) || !faces_up({1, 2, 3})
+            || !faces_up({2, 3, 0}))
+            continue;
+        ++fans;
+        const Split result = split(corners);
+        ASSERT_EQ(result.kind, OutlineKind::convex);
+        ASSERT_EQ(result.triangles, (std::vector<CornerTriple>{{0, 1, 2}, {0, 2, 3}}));
+    }
+    EXPECT_GT(fans, 1'000);
+}
+
 TEST(SplitPolygon, SplitsAQuadrangleAtItsReflexCornerWhicheverThatIs) {
     const std::vector<Vec3> dart = {{0, 0, 0}, {4, 0, 0}, {1, 1, 0}, {0, 4, 0}};
     for (std::size_t shift = 0; shift < 4; ++shift)

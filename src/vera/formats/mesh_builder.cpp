@@ -77,14 +77,14 @@ bool MeshBuilder::add_face(std::span<const MeshCorner> corners, std::size_t offs
 }
 
 void MeshBuilder::add_polygon(std::span<const MeshCorner> corners, std::size_t offset) {
-    outline_.clear();
-    for (const MeshCorner& corner : corners)
-        outline_.push_back(mesh_.positions[corner.position]);
+    outline_.resize(corners.size());
+    for (std::size_t i = 0; i < corners.size(); ++i)
+        outline_[i] = mesh_.positions[corners[i].position];
     const OutlineKind outline = split_polygon(outline_, triangles_);
-    const std::size_t before = mesh_.triangle_count();
+    const std::size_t before = mesh_.position_indices.size();
     for (const auto& [a, b, c] : triangles_)
         add_triangle(corners[a], corners[b], corners[c]);
-    if (mesh_.triangle_count() == before)
+    if (mesh_.position_indices.size() == before)
         without_area_.add(offset);
     else if (outline == OutlineKind::tangled)
         tangled_.add(offset);
@@ -104,28 +104,27 @@ bool MeshBuilder::add_triangle(MeshCorner a, MeshCorner b, MeshCorner c) {
 void MeshBuilder::add_normals(MeshCorner a, MeshCorner b, MeshCorner c) {
     const bool given = a.normal != MeshCorner::no_normal && b.normal != MeshCorner::no_normal
         && c.normal != MeshCorner::no_normal;
+    any_missing_normal_ = any_missing_normal_ || !given;
+    if (!given && !any_normal_)
+        return;
     if (!given)
         a.normal = b.normal = c.normal = MeshCorner::no_normal;
-    if (mesh_.normal_indices.empty()) {
-        const std::size_t before = mesh_.position_indices.size() - 3;
-        const bool first = before == 0;
-        const bool as_positions =
-            a.normal == a.position && b.normal == b.position && c.normal == c.position;
-        const bool as_before = first || (any_normal_ ? as_positions : !given);
-        if (!as_before || (first && given && !as_positions)) {
-            reserve_room(mesh_.normal_indices, mesh_.position_indices.capacity());
+    std::vector<std::uint32_t>& normals = mesh_.normal_indices;
+    const std::size_t before = mesh_.position_indices.size() - 3;
+    const bool as_positions =
+        a.normal == a.position && b.normal == b.position && c.normal == c.position;
+    const bool as_all_positions = normals.empty() && as_positions && (any_normal_ || before == 0);
+    if (!as_all_positions) {
+        if (normals.empty()) {
+            reserve_room(normals, mesh_.position_indices.capacity());
             if (any_normal_)
-                mesh_.normal_indices.assign(
-                    mesh_.position_indices.begin(), mesh_.position_indices.end() - 3);
+                normals.assign(mesh_.position_indices.begin(), mesh_.position_indices.end() - 3);
             else
-                mesh_.normal_indices.assign(before, MeshCorner::no_normal);
-            mesh_.normal_indices.insert(mesh_.normal_indices.end(), {a.normal, b.normal, c.normal});
+                normals.assign(before, MeshCorner::no_normal);
         }
-    } else {
-        mesh_.normal_indices.insert(mesh_.normal_indices.end(), {a.normal, b.normal, c.normal});
+        normals.insert(normals.end(), {a.normal, b.normal, c.normal});
     }
-    any_normal_ = any_normal_ || given;
-    any_missing_normal_ = any_missing_normal_ || !given;
+    any_normal_ = true;
 }
 
 /// Triangles without normals, among others with, get their own.

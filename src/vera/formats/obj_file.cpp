@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
 
 #include <fmt/format.h>
 
@@ -62,7 +61,9 @@ private:
         for (; !counter.at_end(); counter.skip_line()) {
             const char first = counter.peek();
             if (first == 'f') {
-                triangles += corner_count(counter.rest_of_line()) - 2;
+                const std::string_view line = counter.rest_of_line();
+                triangles += corner_count(line) - 2;
+                counter.pass(line);
             } else if (first == 'v') {
                 counter.step();
                 positions += counter.peek() == ' ' ? 1 : 0;
@@ -111,16 +112,10 @@ private:
 
     void read_face(std::size_t start) {
         corners_.clear();
-        bool good = true;
-        while (good && !cursor_.at_line_end() && cursor_.peek() != '#') {
-            const auto corner = take_corner();
-            if (corner)
-                corners_.push_back(*corner);
-            else
-                good = false;
+        while (!cursor_.at_line_end() && cursor_.peek() != '#') {
+            if (!take_corner(corners_.emplace_back()))
+                return;
         }
-        if (!good)
-            return;
         if (corners_.size() < 3)
             report_.error(
                 cursor_.offset(),
@@ -132,25 +127,24 @@ private:
             stop();
     }
 
-    /// position, position/texture, position//normal or position/texture/normal.
-    std::optional<MeshCorner> take_corner() {
-        MeshCorner corner;
+    /// position, position/texture, position//normal or position/texture/normal. No optional: that
+    /// would be put together in memory, which takes longer than to read short numbers.
+    bool take_corner(MeshCorner& corner) {
         const Mesh& mesh = builder_.mesh();
         if (!take_number(corner.position, mesh.positions.size(), "vertex", "v"))
-            return std::nullopt;
+            return false;
         if (cursor_.peek() != '/')
-            return ends_word() ? std::optional(corner) : std::nullopt;
+            return ends_word();
         cursor_.step();
         if (cursor_.peek() == '-' || cursor_.peek() == '+')
             cursor_.step();
-        while (is_digit(cursor_.peek()))
-            cursor_.step();
+        cursor_.taken_digits();
         if (cursor_.peek() == '/') {
             cursor_.step();
             if (!take_number(corner.normal, mesh.normals.size(), "normal", "vn"))
-                return std::nullopt;
+                return false;
         }
-        return ends_word() ? std::optional(corner) : std::nullopt;
+        return ends_word();
     }
 
     static bool is_digit(char letter) { return letter >= '0' && letter <= '9'; }
@@ -173,16 +167,7 @@ private:
         const bool backwards = cursor_.peek() == '-';
         if (backwards || cursor_.peek() == '+')
             cursor_.step();
-        if (!is_digit(cursor_.peek())) {
-            cursor_.expected(
-                fmt::format("the number of a {} of the face", thing),
-                "a corner is written 1, 1/2, 1//3 or 1/2/3: vertex, texture, normal");
-            return false;
-        }
-        std::uint64_t number = 0;
-        for (; is_digit(cursor_.peek()); cursor_.step())
-            if (number < 1'000'000'000'000)
-                number = 10 * number + static_cast<std::uint64_t>(cursor_.peek() - '0');
+        const std::uint64_t number = cursor_.taken_digits();
         if (number == 0 || number > count) {
             complain_of_index(start, count, thing, keyword);
             return false;
@@ -195,6 +180,10 @@ private:
         std::size_t start, std::size_t count, const char* thing, const char* keyword) {
         const std::size_t length = cursor_.offset() - start;
         const std::string_view written = report_.source().text().substr(start, length);
+        if (written.empty() || !is_digit(written.back()))
+            return cursor_.expected(
+                fmt::format("the number of a {} of the face", thing),
+                "a corner is written 1, 1/2, 1//3 or 1/2/3: vertex, texture, normal");
         report_.error(
             start,
             length,

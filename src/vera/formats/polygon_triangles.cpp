@@ -251,12 +251,13 @@ private:
 
 /// Most faces of more than three corners have four: those need no memory.
 bool split_quadrangle(std::span<const Vec3> p, std::vector<CornerTriple>& triangles) {
-    const Vec3 normal = cross(p[2] - p[0], p[3] - p[1]);
-    const auto faces_up = [&](std::size_t a, std::size_t b, std::size_t c) {
-        return dot(cross(p[b] - p[a], p[c] - p[a]), normal) > 0;
-    };
-    const bool up[] = {faces_up(3, 0, 1), faces_up(0, 1, 2), faces_up(1, 2, 3), faces_up(2, 3, 0)};
-    if (!up[0] || !up[1] || !up[2] || !up[3])
+    const Vec3 first = p[2] - p[0];
+    const Vec3 second = p[3] - p[1];
+    const Vec3 normal = cross(first, second);
+    // The triangles that each diagonal makes with the sides to its right and to its left.
+    const auto faces_up = [&](Vec3 a, Vec3 b) { return dot(cross(a, b), normal) > 0; };
+    if (!faces_up(p[1] - p[0], first) || !faces_up(first, p[3] - p[2])
+        || !faces_up(p[2] - p[1], second) || !faces_up(second, p[0] - p[3]))
         return false;
     triangles.push_back({0, 1, 2});
     triangles.push_back({0, 2, 3});

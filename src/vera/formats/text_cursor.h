@@ -62,6 +62,10 @@ public:
 
     /// Goes behind the end of this line, and of those that continue it.
     void skip_line() {
+        if (at_ != end_ && *at_ == '\n') {
+            ++at_;
+            return;
+        }
         while (at_ != end_) {
             const void* const found = std::memchr(at_, '\n', static_cast<std::size_t>(end_ - at_));
             if (found == nullptr) {
@@ -123,6 +127,18 @@ public:
         }
         complain_of_number(axis, what);
         return false;
+    }
+
+    /// Takes what digits there are, and returns their number; of very many, one that is too large.
+    std::uint64_t taken_digits() {
+        constexpr std::uint64_t large_enough = 1'000'000'000'000;
+        std::uint64_t number = 0;
+        const char* p = at_;
+        for (; p != end_ && *p >= '0' && *p <= '9'; ++p)
+            if (number < large_enough)
+                number = 10 * number + static_cast<std::uint64_t>(*p - '0');
+        at_ = p;
+        return number;
     }
 
     bool take_point(Vec3& point, std::string_view what) {
