@@ -63,6 +63,13 @@ polygon_record(const LocalGeometry& local, const Polygon& polygon, const Box3& l
     return record_of(ElementRecord::Kind::box, local_box.lower, local_box.upper, {});
 }
 
+/// Whether the shape is nothing but the mantle of a cylinder.
+bool is_mantle(const RotationalShape& shape) {
+    const ContourPiece& piece = shape.contour.front();
+    return shape.contour.size() == 1 && piece.kind == ContourPiece::Kind::line
+        && piece.end.r == shape.start.r;
+}
+
 ElementRecord cylinder_record(const LocalGeometry& local, const RotationalShape& shape) {
     double lowest = shape.start.h;
     double highest = shape.start.h;
@@ -82,7 +89,7 @@ ElementRecord cylinder_record(const LocalGeometry& local, const RotationalShape&
     const Vec3 middle = shape.base + (0.5 * lowest + 0.5 * highest) * shape.axis;
     const double half_length = 0.5 * (highest - lowest);
     return record_of(
-        ElementRecord::Kind::cylinder,
+        is_mantle(shape) ? ElementRecord::Kind::mantle : ElementRecord::Kind::cylinder,
         local_point(local, middle),
         shape.axis,
         enlarged * local.scale * Vec3{radius, half_length, 0});

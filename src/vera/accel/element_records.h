@@ -17,7 +17,8 @@ struct ElementRecord {
         quadrangle, ///< corner, edges e and f to its neighbours, x and y: corner + x e + y f is the
                     ///< opposite corner
         box,        ///< lower corner, upper corner
-        cylinder,   ///< center, axis (unit), radius, half its length
+        mantle,     ///< of a cylinder: center, axis (unit), radius, half its length
+        cylinder,   ///< one around a rotational shape: as mantle
         call        ///< of a subscene: as box
     };
 

@@ -3,8 +3,11 @@
 // set, and so included once for each, by the searches alone.
 //
 // The lanes of a vector are rays that are tested against one element, or elements that one ray is
-// tested against: what is one has its numbers in all lanes. Each test returns the lanes in which
-// the ray, moved by up to slack, may meet the element before its limit.
+// tested against: what is one has its numbers in all lanes. may_meet() returns the lanes in which
+// the ray, moved by up to slack, may meet the element before its limit; surely_meets() those in
+// which it meets the element wherever it is moved to, and surely_leaves() those in which a ray that
+// starts on the element does not meet it again. What is neither sure nor ruled out is for the test
+// that decides.
 
 #if defined(VERA_ACCEL_ELEMENT_TESTS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef VERA_ACCEL_ELEMENT_TESTS_INL_H_
@@ -51,6 +54,12 @@ struct TestedRays {
 /// Squares of sums are rounded by a few units of 2^-24.
 constexpr float up = 1 + 0x1p-20F;
 
+/// Before it a ray, moved by up to slack, has surely not come to its end.
+template <typename D>
+HWY_INLINE hn::Vec<D> sure_limit(D d, const TestedRays<D>& rays) {
+    return hn::Sub(rays.limit, hn::Set(d, 16 * rays.slack));
+}
+
 template <typename D>
 HWY_INLINE hn::Mask<D>
 meets_ball(D d, const TestedRays<D>& rays, const hn::Vec<D>* center, hn::Vec<D> radius) {
@@ -74,8 +83,42 @@ meets_ball(D d, const TestedRays<D>& rays, const hn::Vec<D>* center, hn::Vec<D> 
     return hn::And(hn::Le(sum, reach), hn::Ge(rays.limit, zero));
 }
 
+/// A ray meets a sphere that it passes through from one side to the other.
+template <typename D>
+HWY_INLINE hn::Mask<D>
+surely_meets_ball(D d, const TestedRays<D>& rays, const hn::Vec<D>* center, hn::Vec<D> radius) {
+    using V = hn::Vec<D>;
+    const V to_center[3] = {
+        hn::Sub(center[0], rays.origin[0]),
+        hn::Sub(center[1], rays.origin[1]),
+        hn::Sub(center[2], rays.origin[2])};
+    const V closest = dot3(to_center, rays.direction);
+    const V offset[3] = {
+        hn::Sub(to_center[0], hn::Mul(closest, rays.direction[0])),
+        hn::Sub(to_center[1], hn::Mul(closest, rays.direction[1])),
+        hn::Sub(to_center[2], hn::Mul(closest, rays.direction[2]))};
+    const V distance_squared = dot3(offset, offset);
+    const V margin = hn::Set(d, 4 * rays.slack);
+    const V inner = hn::Max(hn::Sub(radius, margin), hn::Zero(d));
+    const V outer = hn::Add(radius, margin);
+    const V inner_squared = hn::Mul(hn::Mul(inner, inner), hn::Set(d, 2 - up));
+    const V outer_squared = hn::Mul(hn::Mul(outer, outer), hn::Set(d, up));
+    const V end = sure_limit(d, rays);
+    const V t = hn::Max(hn::Zero(d), hn::Min(end, closest));
+    const V to_t = hn::Sub(closest, t);
+    const V to_end = hn::Sub(closest, end);
+    const V start_squared = dot3(to_center, to_center);
+    const V middle_squared = hn::Add(distance_squared, hn::Mul(to_t, to_t));
+    const V end_squared = hn::Add(distance_squared, hn::Mul(to_end, to_end));
+    const auto ends_outside = hn::Or(
+        hn::Gt(start_squared, outer_squared), hn::Gt(end_squared, outer_squared));
+    return hn::And(
+        hn::And(hn::Lt(middle_squared, inner_squared), ends_outside), hn::Gt(end, hn::Zero(d)));
+}
+
 /// Where rays meet the plane of a face: at corner + (u e + v f) / speed, and there t is
-/// depth / speed.
+/// depth / speed. They meet the face if the numbers from lowest to highest, one for each side and
+/// each off by up to error, have one sign.
 template <typename V>
 struct PlanePlace {
     V u;
@@ -83,6 +126,9 @@ struct PlanePlace {
     V speed;
     V depth;
     V largest; ///< of the components of e and f, without their signs
+    V lowest;
+    V highest;
+    V error;
 };
 
 template <typename D>
@@ -110,18 +156,46 @@ plane_place(D, const TestedRays<D>& rays, const hn::Vec<D>* values) {
     return place;
 }
 
-/// Whether the numbers between lowest and highest, each off by up to error, may have one sign, and
-/// the plane is met between 0 and the limit.
 template <typename D>
-HWY_INLINE hn::Mask<D> meets_there(
-    D d,
-    const TestedRays<D>& rays,
-    const PlanePlace<hn::Vec<D>>& place,
-    hn::Vec<D> lowest,
-    hn::Vec<D> highest,
-    hn::Vec<D> error) {
+HWY_INLINE PlanePlace<hn::Vec<D>>
+triangle_place(D d, const TestedRays<D>& rays, const hn::Vec<D>* values) {
+    auto place = plane_place(d, rays, values);
+    const auto w = hn::Sub(hn::Sub(place.speed, place.u), place.v);
+    place.lowest = hn::Min(hn::Min(place.u, place.v), w);
+    place.highest = hn::Max(hn::Max(place.u, place.v), w);
+    // Moving the ray by slack changes a volume with an edge by at most slack times the edge's
+    // length, which is at most sqrt(3) times its largest component; the third is a sum of two.
+    place.error = hn::Mul(hn::Set(d, 4 * rays.slack), place.largest);
+    return place;
+}
+
+template <typename D>
+HWY_INLINE PlanePlace<hn::Vec<D>>
+quadrangle_place(D d, const TestedRays<D>& rays, const hn::Vec<D>* values) {
     using V = hn::Vec<D>;
-    const auto met = hn::Or(hn::Ge(lowest, hn::Neg(error)), hn::Le(highest, error));
+    auto place = plane_place(d, rays, values);
+    // Left of the sides from (1, 0) to the fourth corner (x, y) and from there to (0, 1).
+    const V one = hn::Set(d, 1);
+    const V x = values[9];
+    const V y = values[10];
+    const V side =
+        hn::Sub(hn::Mul(hn::Sub(x, one), place.v), hn::Mul(y, hn::Sub(place.u, place.speed)));
+    const V other =
+        hn::Sub(hn::Mul(hn::Sub(y, one), place.u), hn::Mul(x, hn::Sub(place.v, place.speed)));
+    place.lowest = hn::Min(hn::Min(place.u, place.v), hn::Min(side, other));
+    place.highest = hn::Max(hn::Max(place.u, place.v), hn::Max(side, other));
+    const V sizes = hn::Add(one, hn::Add(hn::Abs(x), hn::Abs(y)));
+    place.error = hn::Mul(hn::Mul(hn::Set(d, 8 * rays.slack), place.largest), sizes);
+    return place;
+}
+
+/// Whether the face may be met between 0 and the limit.
+template <typename D>
+HWY_INLINE hn::Mask<D>
+meets_face(D d, const TestedRays<D>& rays, const PlanePlace<hn::Vec<D>>& place) {
+    using V = hn::Vec<D>;
+    const auto met =
+        hn::Or(hn::Ge(place.lowest, hn::Neg(place.error)), hn::Le(place.highest, place.error));
     const V size = hn::Abs(place.speed);
     const V t_size = hn::Mul(place.depth, hn::CopySignToAbs(hn::Set(d, 1), place.speed));
     const V deep = hn::Mul(hn::Set(d, 8 * rays.slack), hn::Mul(place.largest, place.largest));
@@ -131,44 +205,19 @@ HWY_INLINE hn::Mask<D> meets_there(
     return hn::And(met, hn::And(behind_start, before_limit));
 }
 
+/// Whether the face is surely met there: all as above with twice the margins, on the other side.
 template <typename D>
-HWY_INLINE hn::Mask<D> meets_triangle(D d, const TestedRays<D>& rays, const hn::Vec<D>* values) {
+HWY_INLINE hn::Mask<D>
+surely_meets_face(D d, const TestedRays<D>& rays, const PlanePlace<hn::Vec<D>>& place) {
     using V = hn::Vec<D>;
-    const auto place = plane_place(d, rays, values);
-    const V w = hn::Sub(hn::Sub(place.speed, place.u), place.v);
-    // Moving the ray by slack changes a volume with an edge by at most slack times the edge's
-    // length, which is at most sqrt(3) times its largest component; the third is a sum of two.
-    const V error = hn::Mul(hn::Set(d, 4 * rays.slack), place.largest);
-    return meets_there(
-        d,
-        rays,
-        place,
-        hn::Min(hn::Min(place.u, place.v), w),
-        hn::Max(hn::Max(place.u, place.v), w),
-        error);
-}
-
-template <typename D>
-HWY_INLINE hn::Mask<D> meets_quadrangle(D d, const TestedRays<D>& rays, const hn::Vec<D>* values) {
-    using V = hn::Vec<D>;
-    const auto place = plane_place(d, rays, values);
-    // Left of the sides from (1, 0) to the fourth corner (x, y) and from there to (0, 1).
-    const V one = hn::Set(d, 1);
-    const V x = values[9];
-    const V y = values[10];
-    const V side =
-        hn::Sub(hn::Mul(hn::Sub(x, one), place.v), hn::Mul(y, hn::Sub(place.u, place.speed)));
-    const V other =
-        hn::Sub(hn::Mul(hn::Sub(y, one), place.u), hn::Mul(x, hn::Sub(place.v, place.speed)));
-    const V sizes = hn::Add(one, hn::Add(hn::Abs(x), hn::Abs(y)));
-    const V error = hn::Mul(hn::Mul(hn::Set(d, 8 * rays.slack), place.largest), sizes);
-    return meets_there(
-        d,
-        rays,
-        place,
-        hn::Min(hn::Min(place.u, place.v), hn::Min(side, other)),
-        hn::Max(hn::Max(place.u, place.v), hn::Max(side, other)),
-        error);
+    const V error = hn::Add(place.error, place.error);
+    const auto met = hn::Or(hn::Gt(place.lowest, error), hn::Lt(place.highest, hn::Neg(error)));
+    const V size = hn::Abs(place.speed);
+    const V t_size = hn::Mul(place.depth, hn::CopySignToAbs(hn::Set(d, 1), place.speed));
+    const V deep = hn::Mul(hn::Set(d, 16 * rays.slack), hn::Mul(place.largest, place.largest));
+    const auto behind_start = hn::Gt(t_size, deep);
+    const auto before_limit = hn::Lt(hn::Add(t_size, deep), hn::Mul(sure_limit(d, rays), size));
+    return hn::And(met, hn::And(behind_start, before_limit));
 }
 
 template <typename D>
@@ -236,6 +285,64 @@ HWY_INLINE hn::Mask<D> meets_cylinder(D d, const TestedRays<D>& rays, const hn::
     return hn::And(near_axis, hn::Or(at_heights, hn::Lt(sine, steep)));
 }
 
+/// A ray meets the mantle of a cylinder where it enters the whole infinite one between the heights
+/// of its ends, or leaves it there.
+template <typename D>
+HWY_INLINE hn::Mask<D>
+surely_meets_mantle(D d, const TestedRays<D>& rays, const hn::Vec<D>* values) {
+    using V = hn::Vec<D>;
+    const V to_center[3] = {
+        hn::Sub(values[0], rays.origin[0]),
+        hn::Sub(values[1], rays.origin[1]),
+        hn::Sub(values[2], rays.origin[2])};
+    const V axis_direction[3] = {values[3], values[4], values[5]};
+    V across[3];
+    cross3(rays.direction, axis_direction, across);
+    const V sine_squared = dot3(across, across);
+    const V sine = hn::Sqrt(sine_squared);
+    const V apart = hn::Abs(dot3(to_center, across));
+    const V rise = dot3(rays.direction, axis_direction);
+    const V height = dot3(to_center, axis_direction); // of the center above the origin
+    const V per_square = hn::Div(hn::Set(d, 1), sine_squared);
+    const V middle =
+        hn::Mul(hn::Sub(dot3(to_center, rays.direction), hn::Mul(height, rise)), per_square);
+
+    // Half the length of the ray within the cylinder lies between these two.
+    const V slack = hn::Set(d, rays.slack);
+    const V margin = hn::Mul(hn::Set(d, 4), slack);
+    const V inner = hn::Sub(hn::Mul(sine, hn::Sub(values[6], margin)), margin);
+    const V outer = hn::Add(hn::Mul(sine, hn::Add(values[6], margin)), margin);
+    const V apart_squared = hn::Mul(apart, apart);
+    const V shorter = hn::Mul(
+        hn::Sqrt(hn::Max(hn::Zero(d), hn::Sub(hn::Mul(inner, inner), apart_squared))), per_square);
+    const V longer = hn::Mul(
+        hn::Sqrt(hn::Max(hn::Zero(d), hn::Sub(hn::Mul(outer, outer), apart_squared))), per_square);
+    // |middle| is at most a few units over the sine's square, and so is its error.
+    const V off = hn::Mul(hn::Mul(hn::Set(d, 16), slack), per_square);
+    const auto passes = hn::And(hn::Gt(inner, apart), hn::Gt(sine, hn::Set(d, 0.1F)));
+
+    const V end = sure_limit(d, rays);
+    const V heights = hn::Sub(hn::Sub(values[7], margin), off);
+    const auto at_heights = [&](V t) {
+        return hn::Le(hn::Abs(hn::Sub(hn::Mul(t, rise), height)), heights);
+    };
+    const auto between = [&](V first, V last) {
+        return hn::And(
+            hn::And(hn::Gt(first, margin), hn::Lt(last, end)),
+            hn::And(at_heights(first), at_heights(last)));
+    };
+    const auto entering = between(
+        hn::Sub(hn::Sub(middle, longer), off), hn::Add(hn::Sub(middle, shorter), off));
+    const auto leaving = between(
+        hn::Sub(hn::Add(middle, shorter), off), hn::Add(hn::Add(middle, longer), off));
+    return hn::And(passes, hn::Or(entering, leaving));
+}
+
+template <typename D>
+HWY_INLINE hn::Mask<D> none(D d) {
+    return hn::Lt(hn::Zero(d), hn::Zero(d));
+}
+
 /// The test of elements of this kind; values as in their records.
 template <typename D>
 HWY_INLINE hn::Mask<D>
@@ -244,9 +351,10 @@ may_meet(D d, const TestedRays<D>& rays, ElementRecord::Kind kind, const hn::Vec
     case ElementRecord::Kind::sphere:
         return meets_ball(d, rays, values, hn::Add(values[3], hn::Set(d, 2 * rays.slack)));
     case ElementRecord::Kind::triangle:
-        return meets_triangle(d, rays, values);
+        return meets_face(d, rays, triangle_place(d, rays, values));
     case ElementRecord::Kind::quadrangle:
-        return meets_quadrangle(d, rays, values);
+        return meets_face(d, rays, quadrangle_place(d, rays, values));
+    case ElementRecord::Kind::mantle:
     case ElementRecord::Kind::cylinder:
         return meets_cylinder(d, rays, values);
     case ElementRecord::Kind::box:
@@ -255,6 +363,85 @@ may_meet(D d, const TestedRays<D>& rays, ElementRecord::Kind kind, const hn::Vec
     }
     return meets_box(d, rays, values);
 }
+
+/// For rays that do not start on the element.
+template <typename D>
+HWY_INLINE hn::Mask<D>
+surely_meets(D d, const TestedRays<D>& rays, ElementRecord::Kind kind, const hn::Vec<D>* values) {
+    switch (kind) {
+    case ElementRecord::Kind::sphere:
+        return surely_meets_ball(d, rays, values, values[3]);
+    case ElementRecord::Kind::triangle:
+        return surely_meets_face(d, rays, triangle_place(d, rays, values));
+    case ElementRecord::Kind::quadrangle:
+        return surely_meets_face(d, rays, quadrangle_place(d, rays, values));
+    case ElementRecord::Kind::mantle:
+        return surely_meets_mantle(d, rays, values);
+    case ElementRecord::Kind::cylinder:
+    case ElementRecord::Kind::box:
+    case ElementRecord::Kind::call:
+        break;
+    }
+    return none(d);
+}
+
+/// For rays that start on the element.
+template <typename D>
+HWY_INLINE hn::Mask<D>
+surely_leaves(D d, const TestedRays<D>& rays, ElementRecord::Kind kind, const hn::Vec<D>* values) {
+    switch (kind) {
+    case ElementRecord::Kind::sphere: {
+        const hn::Vec<D> to_center[3] = {
+            hn::Sub(values[0], rays.origin[0]),
+            hn::Sub(values[1], rays.origin[1]),
+            hn::Sub(values[2], rays.origin[2])};
+        return hn::Lt(dot3(to_center, rays.direction), hn::Set(d, -4 * rays.slack));
+    }
+    case ElementRecord::Kind::triangle:
+    case ElementRecord::Kind::quadrangle:
+        return hn::Not(none(d));
+    case ElementRecord::Kind::mantle:
+    case ElementRecord::Kind::cylinder:
+    case ElementRecord::Kind::box:
+    case ElementRecord::Kind::call:
+        break;
+    }
+    return none(d);
+}
+
+/// These tests as values.
+struct MayMeet {
+    template <typename D>
+    HWY_INLINE hn::Mask<D> operator()(
+        D d,
+        const TestedRays<D>& rays,
+        ElementRecord::Kind kind,
+        const hn::Vec<D>* values) const {
+        return may_meet(d, rays, kind, values);
+    }
+};
+
+struct SurelyMeets {
+    template <typename D>
+    HWY_INLINE hn::Mask<D> operator()(
+        D d,
+        const TestedRays<D>& rays,
+        ElementRecord::Kind kind,
+        const hn::Vec<D>* values) const {
+        return surely_meets(d, rays, kind, values);
+    }
+};
+
+struct SurelyLeaves {
+    template <typename D>
+    HWY_INLINE hn::Mask<D> operator()(
+        D d,
+        const TestedRays<D>& rays,
+        ElementRecord::Kind kind,
+        const hn::Vec<D>* values) const {
+        return surely_leaves(d, rays, kind, values);
+    }
+};
 
 } // namespace HWY_NAMESPACE
 } // namespace vera::detail

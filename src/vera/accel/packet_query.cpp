@@ -8,6 +8,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 namespace vera::detail {
 
@@ -87,7 +88,7 @@ LaneMask entering(PacketQuery& query, Frame& frame, LaneMask lanes) {
 const PreparedRay& prepared_ray(Frame& frame, std::size_t lane) {
     if ((frame.prepared_lanes >> lane & 1U) == 0) {
         frame.prepared_lanes |= LaneMask{1} << lane;
-        frame.prepared[lane] = PreparedRay(frame.rays.ray(lane));
+        std::construct_at(&frame.prepared[lane], frame.rays.ray(lane));
     }
     return frame.prepared[lane];
 }
@@ -257,6 +258,17 @@ void test_exactly(PacketQuery& query, Frame& frame, std::uint32_t element, LaneM
             frame.limit[lane] = limit_of(query, frame, lane);
         }
     }
+}
+
+void block(PacketQuery& query, Frame& frame, LaneMask lanes) {
+    for (LaneMask rest = lanes; rest != 0; rest &= rest - 1) {
+        const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+        query.transmittance[lane].block();
+        query.limit[lane] = -std::numeric_limits<double>::infinity();
+        frame.limit[lane] = static_cast<float>(-farthest);
+    }
+    query.active &= ~lanes;
+    query.changes += lanes != 0 ? 1 : 0;
 }
 
 void refresh_limits(const PacketQuery& query, Frame& frame, LaneMask lanes) {

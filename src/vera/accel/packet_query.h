@@ -201,6 +201,9 @@ void search_plainly(PacketQuery& query, Frame& frame, std::uint32_t element, Lan
 /// Tests the lanes' rays against the element, which is not a call, in the arithmetic that decides.
 void test_exactly(PacketQuery& query, Frame& frame, std::uint32_t element, LaneMask lanes);
 
+/// Notes that the lanes' rays, of which only that is asked, meet something.
+void block(PacketQuery& query, Frame& frame, LaneMask lanes);
+
 /// Takes over the query's limits, which may have changed in a subscene.
 void refresh_limits(const PacketQuery& query, Frame& frame, LaneMask lanes);
 

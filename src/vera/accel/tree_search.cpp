@@ -124,8 +124,19 @@ met_children(const WideNode& node, const BoxRay& ray, float limit, float* near_r
     return met;
 }
 
-HWY_INLINE std::uint32_t met_elements(
-    const GeometryTree& tree, const TreeChild& child, const Frame& frame, std::size_t lane) {
+inline std::uint32_t
+element_number(const GeometryTree& tree, const TreeChild& child, std::size_t i) {
+    return std::bit_cast<std::uint32_t>(tree.rows[child.first][i]);
+}
+
+/// The elements of a block of which a test says yes for one ray.
+template <typename Test>
+HWY_INLINE std::uint32_t test_elements(
+    const GeometryTree& tree,
+    const TreeChild& child,
+    const Frame& frame,
+    std::size_t lane,
+    const Test& test) {
     const Elements d;
     const ElementRecord::Kind kind = element_kind(child);
     const TestedRays<Elements> rays = {
@@ -147,25 +158,33 @@ HWY_INLINE std::uint32_t met_elements(
         hn::Vec<Elements> values[11];
         for (std::size_t value = 0; value < 11; ++value)
             values[value] = value < count ? hn::LoadU(d, rows[value].data() + i) : hn::Zero(d);
-        met |= bits_of(d, may_meet(d, rays, kind, values)) << i;
+        met |= bits_of(d, test(d, rays, kind, values)) << i;
     }
     return met & ((std::uint32_t{1} << child.count) - 1);
 }
 
-inline std::uint32_t
-element_number(const GeometryTree& tree, const TreeChild& child, std::size_t i) {
-    return std::bit_cast<std::uint32_t>(tree.rows[child.first][i]);
-}
-
 void visit_block_alone(PacketQuery& query, Frame& frame, const TreeChild& child, std::size_t lane) {
     const GeometryTree& tree = tree_of(frame);
-    if (element_kind(child) != ElementRecord::Kind::call)
+    const ElementRecord::Kind kind = element_kind(child);
+    const LaneMask lanes = LaneMask{1} << lane;
+    if (kind != ElementRecord::Kind::call)
         query.counts.tests += child.count;
-    for (std::uint32_t met = met_elements(tree, child, frame, lane); met != 0; met &= met - 1) {
+    std::uint32_t met = test_elements(tree, child, frame, lane, MayMeet());
+    if (met == 0)
+        return;
+    std::uint32_t starts = 0;
+    for (std::size_t i = 0; i < child.count; ++i)
+        if (element_number(tree, child, i) == frame.start_element[lane])
+            starts |= std::uint32_t{1} << i;
+    if ((met & starts) != 0)
+        met &= ~(starts & test_elements(tree, child, frame, lane, SurelyLeaves()));
+    if (query.purpose == Purpose::any
+        && (met & ~starts & test_elements(tree, child, frame, lane, SurelyMeets())) != 0)
+        return block(query, frame, lanes);
+    for (; met != 0; met &= met - 1) {
         const auto i = static_cast<std::size_t>(std::countr_zero(met));
-        visit_element(
-            query, frame, element_kind(child), element_number(tree, child, i), LaneMask{1} << lane);
-        if ((query.active >> lane & 1U) == 0)
+        visit_element(query, frame, kind, element_number(tree, child, i), lanes);
+        if ((query.active & lanes) == 0)
             return;
     }
 }
@@ -294,38 +313,74 @@ HWY_INLINE LaneMask meeting_child(
     return met;
 }
 
-void visit_block(PacketQuery& query, Frame& frame, const TreeChild& child, LaneMask lanes) {
+/// The lanes of a packet for which a test says yes of element i of a block.
+template <typename Test>
+HWY_INLINE LaneMask test_lanes(
+    const GeometryTree& tree,
+    const TreeChild& child,
+    std::size_t i,
+    const Frame& frame,
+    const Test& test) {
     const Lanes d;
+    const ElementRecord::Kind kind = element_kind(child);
+    const BlockRow* rows = tree.rows.data() + child.first + 1;
+    const std::size_t count = value_count(kind);
+    hn::Vec<Lanes> values[11];
+    for (std::size_t value = 0; value < 11; ++value)
+        values[value] = hn::Set(d, value < count ? rows[value][i] : 0);
+    LaneMask met = 0;
+    for (std::size_t lane = 0; lane < packet_size; lane += hn::Lanes(d)) {
+        const TestedRays<Lanes> rays = {
+            {hn::LoadU(d, frame.origin[0].data() + lane),
+             hn::LoadU(d, frame.origin[1].data() + lane),
+             hn::LoadU(d, frame.origin[2].data() + lane)},
+            {hn::LoadU(d, frame.direction[0].data() + lane),
+             hn::LoadU(d, frame.direction[1].data() + lane),
+             hn::LoadU(d, frame.direction[2].data() + lane)},
+            {hn::LoadU(d, frame.inverse[0].data() + lane),
+             hn::LoadU(d, frame.inverse[1].data() + lane),
+             hn::LoadU(d, frame.inverse[2].data() + lane)},
+            hn::LoadU(d, frame.limit.data() + lane),
+            frame.slack};
+        met |= bits_of(d, test(d, rays, kind, values)) << lane;
+    }
+    return met;
+}
+
+/// The lanes whose rays start on the element.
+HWY_INLINE LaneMask starting_on(const Frame& frame, std::uint32_t element) {
+    const hn::RebindToUnsigned<Lanes> d;
+    LaneMask starting = 0;
+    for (std::size_t lane = 0; lane < packet_size; lane += hn::Lanes(d))
+        starting |= bits_of(
+                        d,
+                        hn::Eq(
+                            hn::LoadU(d, frame.start_element.data() + lane), hn::Set(d, element)))
+            << lane;
+    return starting;
+}
+
+void visit_block(PacketQuery& query, Frame& frame, const TreeChild& child, LaneMask lanes) {
     const GeometryTree& tree = tree_of(frame);
     const ElementRecord::Kind kind = element_kind(child);
-    const std::size_t count = value_count(kind);
-    const BlockRow* rows = tree.rows.data() + child.first + 1;
     for (std::size_t i = 0; i < child.count; ++i) {
         if (kind != ElementRecord::Kind::call)
             query.counts.tests += static_cast<std::uint64_t>(std::popcount(lanes));
-        hn::Vec<Lanes> values[11];
-        for (std::size_t value = 0; value < 11; ++value)
-            values[value] = hn::Set(d, value < count ? rows[value][i] : 0);
-        LaneMask met = 0;
-        for (std::size_t lane = 0; lane < packet_size; lane += hn::Lanes(d)) {
-            const TestedRays<Lanes> rays = {
-                {hn::LoadU(d, frame.origin[0].data() + lane),
-                 hn::LoadU(d, frame.origin[1].data() + lane),
-                 hn::LoadU(d, frame.origin[2].data() + lane)},
-                {hn::LoadU(d, frame.direction[0].data() + lane),
-                 hn::LoadU(d, frame.direction[1].data() + lane),
-                 hn::LoadU(d, frame.direction[2].data() + lane)},
-                {hn::LoadU(d, frame.inverse[0].data() + lane),
-                 hn::LoadU(d, frame.inverse[1].data() + lane),
-                 hn::LoadU(d, frame.inverse[2].data() + lane)},
-                hn::LoadU(d, frame.limit.data() + lane),
-                frame.slack};
-            met |= bits_of(d, may_meet(d, rays, kind, values)) << lane;
-        }
-        met &= lanes;
+        LaneMask met = lanes & test_lanes(tree, child, i, frame, MayMeet());
         if (met == 0)
             continue;
-        visit_element(query, frame, kind, element_number(tree, child, i), met);
+        const std::uint32_t element = element_number(tree, child, i);
+        const LaneMask starting = starting_on(frame, element);
+        if ((met & starting) != 0)
+            met &= ~(starting & test_lanes(tree, child, i, frame, SurelyLeaves()));
+        if (query.purpose == Purpose::any) {
+            const LaneMask blocked =
+                met & ~starting & test_lanes(tree, child, i, frame, SurelyMeets());
+            block(query, frame, blocked);
+            met &= ~blocked;
+        }
+        if (met != 0)
+            visit_element(query, frame, kind, element, met);
         lanes &= query.active;
         if (lanes == 0)
             return;

@@ -50,6 +50,7 @@ constexpr std::size_t value_count(ElementRecord::Kind kind) {
         return 9;
     case ElementRecord::Kind::quadrangle:
         return 11;
+    case ElementRecord::Kind::mantle:
     case ElementRecord::Kind::cylinder:
         return 8;
     case ElementRecord::Kind::box:
