@@ -112,6 +112,15 @@ TEST(Antialiasing, FollowsAWireThatPassesBetweenPixelCentres) {
     }
 }
 
+TEST(Antialiasing, FollowsAWireThroughCornersOfPixels) {
+    for (const double off : {0.0, 1e-9, 0.02, 0.05})
+        for (const double rise : {1.0, 0.5, -1.0}) {
+            SCOPED_TRACE(testing::Message() << off << " beside corners, rising by " << rise);
+            const Vec3 start = {8, (rise < 0 ? 308 : 8) + off, 0};
+            expect_wire_is_drawn(start, start + 300.0 * Vec3{1, rise, 0});
+        }
+}
+
 TEST(Antialiasing, CoversPixelsByTheirPart) {
     SceneMaker maker;
     maker.material(luminous({1, 1, 1}));

@@ -14,6 +14,10 @@ namespace {
 /// Pixels around a tile of which the centres are known.
 constexpr std::size_t frame = 2;
 
+/// Rays along the side of a pixel: so many that nothing of a tenth of the side's length that
+/// crosses it is missed.
+constexpr std::size_t side_probes = 16;
+
 /// Of the 5 x 5 places of a window row by row, the middle one, and the pairs of opposite ones among
 /// its 8 neighbours.
 constexpr std::size_t middle = 12;
@@ -92,7 +96,7 @@ std::uint32_t TileRefiner::samples_wanted(const Pixel& pixel) const {
     constexpr std::uint32_t least_in_parts = 8;
     const std::uint32_t samples = picture_.settings.samples;
     if (pixel.wanted == Refinement::thin_alone)
-        return std::max(samples, std::min(4 * samples, most));
+        return std::max(samples, std::min(2 * samples, most));
     // The beginning of a net of samples is a net itself.
     const bool in_parts = pixel.wanted == Refinement::edge && samples >= least_in_parts;
     if (in_parts && (pixel.samples == 0 || !differ(pixel)))
@@ -230,20 +234,15 @@ void TileRefiner::want(std::size_t pixel, Refinement refinement) {
     pending_.push_back(pixel);
 }
 
-void TileRefiner::want_neighbours(std::size_t pixel, Refinement refinement) {
-    const std::size_t x = tile_.x + pixel % tile_.width;
-    const std::size_t y = tile_.y + pixel / tile_.width;
-    for (std::size_t near_y = y == 0 ? 0 : y - 1; near_y <= y + 1; ++near_y)
-        for (std::size_t near_x = x == 0 ? 0 : x - 1; near_x <= x + 1; ++near_x) {
-            if (near_x >= picture_.raster.width || near_y >= picture_.raster.height
-                || (near_x == x && near_y == y))
-                continue;
-            if (near_x >= tile_.x && near_x < tile_.x + tile_.width && near_y >= tile_.y
-                && near_y < tile_.y + tile_.height)
-                want((near_y - tile_.y) * tile_.width + near_x - tile_.x, refinement);
-            else
-                outward.push_back({near_y * picture_.raster.width + near_x, refinement});
-        }
+bool TileRefiner::is_in_tile(std::size_t x, std::size_t y) const {
+    return x >= tile_.x && x < tile_.x + tile_.width && y >= tile_.y && y < tile_.y + tile_.height;
+}
+
+void TileRefiner::want_neighbour(std::size_t x, std::size_t y, Refinement refinement) {
+    if (is_in_tile(x, y))
+        want((y - tile_.y) * tile_.width + x - tile_.x, refinement);
+    else
+        outward.push_back({y * picture_.raster.width + x, refinement});
 }
 
 void TileRefiner::refine_pending() {
@@ -273,14 +272,17 @@ void TileRefiner::refine_pending() {
         tracer_.statistics.extra_view_rays += rays_.size();
 
         std::size_t first_ray = 0;
+        followed_.clear();
         for (const Job& job : jobs_) {
             add_samples(job, first_ray);
-            follow_thin_things(job, first_ray);
+            if (job.refinement >= Refinement::thin || sees_thin_things(job, first_ray))
+                followed_.push_back(job.pixel);
             develop_pixel(job);
             if (samples_wanted(pixels_[job.pixel]) > job.last_sample)
                 pending_.push_back(job.pixel);
             first_ray += job.last_sample - job.first_sample;
         }
+        follow_thin_things();
     }
 }
 
@@ -318,17 +320,63 @@ void TileRefiner::add_samples(const Job& job, std::size_t first_ray) {
     }
 }
 
-void TileRefiner::follow_thin_things(const Job& job, std::size_t first_ray) {
+bool TileRefiner::sees_thin_things(const Job& job, std::size_t first_ray) const {
     const Window around = window(job.pixel);
     const bool own_is_thin = is_thin(around, *around[middle]);
     for (std::uint32_t i = 0; i < job.last_sample - job.first_sample; ++i) {
         const Seen sample = seen(hits_[first_ray + i], surfaces_[first_ray + i]);
         if (!own_is_thin && same_surface(*around[middle], sample))
             continue;
-        if (is_thin(around, sample)) {
-            want_neighbours(job.pixel, refinement_of_thin(around));
-            return;
-        }
+        if (is_thin(around, sample))
+            return true;
+    }
+    return false;
+}
+
+void TileRefiner::follow_thin_things() {
+    rays_.clear();
+    crossings_.clear();
+    for (const std::size_t pixel : followed_) {
+        const std::size_t x = tile_.x + pixel % tile_.width;
+        const std::size_t y = tile_.y + pixel / tile_.width;
+        const Refinement refinement = refinement_of_thin(window(pixel));
+        if (x > 0)
+            look_along_side(pixel, refinement, x - 1, y);
+        if (x + 1 < picture_.raster.width)
+            look_along_side(pixel, refinement, x + 1, y);
+        if (y > 0)
+            look_along_side(pixel, refinement, x, y - 1);
+        if (y + 1 < picture_.raster.height)
+            look_along_side(pixel, refinement, x, y + 1);
+    }
+    probe();
+    for (std::size_t i = 0; i < crossings_.size(); ++i) {
+        const Crossing& crossing = crossings_[i];
+        const Window around = window(crossing.pixel);
+        for (std::size_t ray = i * side_probes; ray < (i + 1) * side_probes; ++ray)
+            if (is_thin(around, seen(hits_[ray], surfaces_[ray]))) {
+                want_neighbour(crossing.x, crossing.y, crossing.refinement);
+                break;
+            }
+    }
+}
+
+void TileRefiner::look_along_side(
+    std::size_t pixel, Refinement refinement, std::size_t x, std::size_t y) {
+    if (is_in_tile(x, y) && pixels_[(y - tile_.y) * tile_.width + x - tile_.x].wanted >= refinement)
+        return;
+    crossings_.push_back({pixel, x, y, refinement});
+    // The places lie on the side that the two pixels have in common, whose middle is halfway
+    // between their centres.
+    const double own_x = static_cast<double>(tile_.x + pixel % tile_.width);
+    const double own_y = static_cast<double>(tile_.y + pixel / tile_.width);
+    const double to_x = static_cast<double>(x) - own_x;
+    const double to_y = static_cast<double>(y) - own_y;
+    for (std::size_t i = 0; i < side_probes; ++i) {
+        const double along = (static_cast<double>(i) + 0.5) / side_probes - 0.5;
+        const SamplePosition position = {
+            0.5 + 0.5 * to_x + along * std::abs(to_y), 0.5 + 0.5 * to_y + along * std::abs(to_x)};
+        rays_.push_back(picture_.raster.ray(own_x, own_y, position));
     }
 }
 

@@ -21,7 +21,7 @@ enum class Refinement : std::uint8_t {
     center,    ///< one ray
     edge,      ///< a quarter of Antialiasing::samples, and all of them where these differ
     thin,      ///< all of them
-    thin_alone ///< 4 times as many
+    thin_alone ///< twice as many
 };
 
 /// The wish that a pixel, numbered row by row, be refined.
@@ -66,6 +66,14 @@ private:
         Refinement refinement = Refinement::edge;
     };
 
+    /// A side over which something thin may go on to a neighbour.
+    struct Crossing {
+        std::size_t pixel = 0; ///< in the tile
+        std::size_t x = 0;     ///< of the neighbour, in the picture
+        std::size_t y = 0;
+        Refinement refinement = Refinement::edge; ///< which the neighbour then gets
+    };
+
     /// A pixel of the tile, while it is worked on.
     struct Pixel {
         Refinement wanted = Refinement::center;
@@ -89,14 +97,17 @@ private:
     void probe();
     void trace_samples();
     void add_samples(const Job& job, std::size_t first_ray);
-    void follow_thin_things(const Job& job, std::size_t first_ray);
+    bool sees_thin_things(const Job& job, std::size_t first_ray) const;
+    void follow_thin_things();
+    void look_along_side(std::size_t pixel, Refinement refinement, std::size_t x, std::size_t y);
     void develop_pixel(const Job& job);
 
     void want(std::size_t pixel, Refinement refinement);
-    void want_neighbours(std::size_t pixel, Refinement refinement);
+    void want_neighbour(std::size_t x, std::size_t y, Refinement refinement);
     bool differs(const Window& window) const;
     Window window(std::size_t pixel) const;
     QueryRay center_ray(std::size_t center) const;
+    bool is_in_tile(std::size_t x, std::size_t y) const;
     std::size_t center_of(std::size_t pixel) const;
     std::uint64_t picture_pixel(std::size_t pixel) const;
     std::uint32_t samples_wanted(const Pixel& pixel) const;
@@ -111,6 +122,8 @@ private:
     std::vector<Pixel> pixels_;
     std::vector<std::size_t> pending_;
     std::vector<Job> jobs_;
+    std::vector<std::size_t> followed_; ///< pixels in which something thin is seen
+    std::vector<Crossing> crossings_;
 
     std::vector<QueryRay> rays_;
     std::vector<std::size_t> targets_; ///< what the rays are for
