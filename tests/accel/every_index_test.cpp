@@ -3,10 +3,16 @@
 #include "vera/accel/grid_tree.h"
 #include "vera/accel/simd_level.h"
 #include "vera/accel/wide_bvh.h"
+#include "vera/math/elementary.h"
 
+#include <array>
+#include <cmath>
 #include <functional>
+#include <limits>
 #include <memory>
+#include <random>
 #include <string>
+#include <vector>
 
 #include "index_answers.h"
 #include "random_scene.h"
@@ -145,6 +151,106 @@ TEST_P(EveryIndex, FindsTheFirstInTheTextOfManyCoincidentFaces) {
     const Answers found = answers(*make(scene), rays);
     EXPECT_EQ(found.hits.back().face, (FaceId{0, 0}));
     EXPECT_EQ(found.hits.back().t, 1);
+}
+
+/// Places at which rays from the origin pass the outline of a shape.
+using OutlinePlaces = std::vector<Vec3>;
+
+/// Points off the middle, across the ray from the origin and the axis, where a ray just touches
+/// what is round about the axis (or about the middle, when it is across the ray itself).
+OutlinePlaces tangent_places(Vec3 origin, Vec3 middle, Vec3 axis, double radius) {
+    const Vec3 to_middle = middle - origin;
+    const Vec3 across = normalized(cross(to_middle, axis));
+    const Vec3 off_axis = to_middle - dot(to_middle, axis) * axis;
+    const double distance = length(off_axis);
+    const double off = radius * distance / std::sqrt(distance * distance - radius * radius);
+    return {middle + off * across, middle - off * across};
+}
+
+OutlinePlaces places_along(const std::vector<Vec3>& corners) {
+    OutlinePlaces places;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const Vec3 next = corners[(i + 1) % corners.size()];
+        for (const double part : {0.0, 0.25, 0.5})
+            places.push_back(corners[i] + part * (next - corners[i]));
+    }
+    return places;
+}
+
+/// Rays from the origin to within some units of single precision of the places, that end before,
+/// at or behind them, or never.
+void add_rays_past(
+    std::vector<QueryRay>& rays,
+    std::mt19937_64& random,
+    Vec3 origin,
+    const OutlinePlaces& places) {
+    constexpr std::array<double, 7> steps = {
+        0, 0x1p-23, 0x1p-20, 0x1p-18, 0x1p-16, 0x1p-14, 0x1p-11};
+    constexpr double forever = std::numeric_limits<double>::infinity();
+    const auto step = [&] { return (random() % 2 == 0 ? 4 : -4) * steps[random() % steps.size()]; };
+    for (const Vec3& place : places)
+        for (int i = 0; i < 24; ++i) {
+            QueryRay query;
+            query.ray.origin = origin;
+            query.ray.direction = place + Vec3{step(), step(), step()} - origin;
+            query.ray.t_max = i % 2 == 0 ? forever : 1 + step();
+            rays.push_back(query);
+        }
+}
+
+TEST_P(EveryIndex, DecidesLikeBruteForceOnRaysThatPassOutlinesClosely) {
+    const Vec3 middle = {0.3, 0.1, -0.2};
+    const Vec3 axis = normalized(Vec3{1, 2, 0.5});
+    const Vec3 aside = normalized(cross(axis, {0, 0, 1}));
+    const std::vector<Vec3> three = {middle, middle + axis, middle + aside};
+    const std::vector<Vec3> four = {
+        middle, middle + axis, middle + 0.75 * axis + 1.25 * aside, middle + aside};
+    Scene scene;
+    Geometry& geometry = scene.geometry;
+    geometry.spheres.push_back({middle, 0.5});
+    geometry.triangles.push_back({{three[0], three[1], three[2]}});
+    geometry.corners = four;
+    geometry.polygons.push_back({.corner_count = 4, .normal = normalized(cross(axis, aside))});
+    RotationalShape mantle;
+    mantle.base = middle;
+    mantle.axis = axis;
+    mantle.start = {0.4, -0.5};
+    mantle.contour.push_back({.end = {0.4, 0.75}});
+    geometry.rotational_shapes.push_back(mantle);
+    mantle.contour.back().end.r = 0.1;
+    geometry.rotational_shapes.push_back(mantle);
+
+    const std::vector<Item> items = {
+        {.kind = ItemKind::sphere},
+        {.kind = ItemKind::triangle},
+        {.kind = ItemKind::polygon},
+        {.kind = ItemKind::rotational_shape},
+        {.kind = ItemKind::rotational_shape, .index = 1}};
+    geometry.spheres.push_back({{4, 4, 4}, 0.1}); // which makes the bounds larger than the shape
+    std::mt19937_64 random(17);
+    for (const Item& item : items) {
+        geometry.items = {item, {.kind = ItemKind::sphere, .index = 1}};
+        number_primitives(scene);
+        std::vector<QueryRay> rays;
+        for (const Vec3& origin : {Vec3{0, 0, 3}, {2, -3, 0}, {-3, 1, 1}, {1, -2, -4}, {9, 9, 8}}) {
+            OutlinePlaces places = places_along(item.kind == ItemKind::polygon ? four : three);
+            if (item.kind == ItemKind::sphere) {
+                places =
+                    tangent_places(origin, middle, normalized(cross(middle - origin, aside)), 0.5);
+            } else if (item.kind == ItemKind::rotational_shape) {
+                places = tangent_places(origin, middle, axis, 0.4);
+                const Vec3 other = cross(axis, aside);
+                for (int i = 0; i < 12; ++i)
+                    for (const double height : {-0.5, 0.75})
+                        places.push_back(
+                            middle + height * axis + 0.4 * cos_degrees(30 * i) * aside
+                            + 0.4 * sin_degrees(30 * i) * other);
+            }
+            add_rays_past(rays, random, origin, places);
+        }
+        expect_like_brute_force(
+            scene, *make(scene), rays, "item " + std::to_string(static_cast<int>(item.kind)));
+    }
 }
 
 TEST_P(EveryIndex, HoldsSubscenesNestedTenThousandDeep) {

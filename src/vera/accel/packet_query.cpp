@@ -67,9 +67,11 @@ void start_frame(
 }
 
 void set_start_element(const PacketQuery& query, Frame& frame, std::size_t lane) {
-    const std::uint64_t start = query.rays[lane].start.primitive - frame.first_primitive;
+    const FaceId& face = query.rays[lane].start;
+    const std::uint64_t start = face.primitive - frame.first_primitive;
     const Geometry& geometry = *frame.local->geometry;
-    frame.start_element[lane] = start >= geometry.primitive_count ? no_element
+    frame.start_element[lane] = start >= geometry.primitive_count || face.piece == no_piece
+        ? no_element
         : geometry.calls.empty() ? static_cast<std::uint32_t>(start)
                                  : element_of(geometry, start);
 }
