@@ -20,7 +20,7 @@ namespace vera {
 /// in colour to within the tolerance.
 ///
 /// A thing is thin where one of a pixel's rays sees it but fewer than 5 of the 5 x 5 centres around
-/// do. Where one of 16 rays along a side of such a pixel, which only ask what is hit, sees
+/// do. Where one of 12 rays along a side of such a pixel, which only ask what is hit, sees
 /// something thin, the neighbour across that side is refined as well, with all rays, and so on
 /// along the thing, which is not lost as long as it covers a tenth of a side. Where it lies before
 /// a plain background, which 13 of the centres see, such pixels get twice as many rays (not more

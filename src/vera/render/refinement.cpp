@@ -16,7 +16,7 @@ constexpr std::size_t frame = 2;
 
 /// Rays along the side of a pixel: so many that nothing of a tenth of the side's length that
 /// crosses it is missed.
-constexpr std::size_t side_probes = 16;
+constexpr std::size_t side_probes = 12;
 
 /// Of the 5 x 5 places of a window row by row, the middle one, and the pairs of opposite ones among
 /// its 8 neighbours.
@@ -353,11 +353,17 @@ void TileRefiner::follow_thin_things() {
     for (std::size_t i = 0; i < crossings_.size(); ++i) {
         const Crossing& crossing = crossings_[i];
         const Window around = window(crossing.pixel);
-        for (std::size_t ray = i * side_probes; ray < (i + 1) * side_probes; ++ray)
+        const Hit* last = nullptr;
+        for (std::size_t ray = i * side_probes; ray < (i + 1) * side_probes; ++ray) {
+            // One ray after another sees the same face: a glance at one of them is enough.
+            if (last != nullptr && last->face == hits_[ray].face)
+                continue;
+            last = &hits_[ray];
             if (is_thin(around, seen(hits_[ray], surfaces_[ray]))) {
                 want_neighbour(crossing.x, crossing.y, crossing.refinement);
                 break;
             }
+        }
     }
 }
 
