@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/scene/certified_crossings.h"
 
+#include "vera/math/bracketed_zero.h"
 #include "vera/scene/contour.h"
 
 #include <algorithm>
@@ -197,40 +198,6 @@ void Search::search(const Node& first, const Node& last, int depth) {
     const Node middle = node_at(0.5 * (first.v + last.v));
     search(first, middle, depth + 1);
     search(middle, last, depth + 1);
-}
-
-/// A zero of a function that changes its sign between low and high: by false position, where an
-/// end that stays counts half (Illinois), and by halves where that is slow, as beside the vertical
-/// tangent at the end of a flat ray's graph.
-template <typename Function>
-double bracketed_zero(
-    double low, double low_value, double high, double high_value, const Function& value_at) {
-    double width = high - low;
-    double last = low;
-    for (int step = 1; step < 200; ++step) {
-        double v = low - low_value * ((high - low) / (high_value - low_value));
-        const bool slow = step % 4 == 0 && high - low > 0.25 * width;
-        if (step % 4 == 0)
-            width = high - low;
-        if (slow || !(v > low && v < high))
-            v = 0.5 * (low + high);
-        if (!(v > low && v < high) || std::abs(v - last) <= 0x1p-52 * v)
-            return v;
-        last = v;
-        const double value = value_at(v);
-        if (value == 0)
-            return v;
-        if ((value > 0) == (low_value > 0)) {
-            low = v;
-            low_value = value;
-            high_value *= 0.5;
-        } else {
-            high = v;
-            high_value = value;
-            low_value *= 0.5;
-        }
-    }
-    return last;
 }
 
 double Search::root_between(const Node& low, const Node& high) const {

@@ -2,6 +2,7 @@
 #include "vera/scene/contour.h"
 
 #include "vera/base/check.h"
+#include "vera/math/bracketed_zero.h"
 
 #include <algorithm>
 #include <cmath>
@@ -166,36 +167,15 @@ double nearest_parameter(const ContourPiece& piece, Point start, Point point) {
     const auto ahead = [&](double v) {
         return dot(difference(point_at(piece, start, v), point), direction_at(directions, v));
     };
-    double low = double{1.0 / samples} * std::max(nearest - 1, 0);
-    double high = double{1.0 / samples} * std::min(nearest + 1, samples);
-    double low_value = ahead(low);
-    double high_value = ahead(high);
+    const double low = double{1.0 / samples} * std::max(nearest - 1, 0);
+    const double high = double{1.0 / samples} * std::min(nearest + 1, samples);
+    const double low_value = ahead(low);
+    const double high_value = ahead(high);
     if (low_value >= 0)
         return low;
     if (high_value <= 0)
         return high;
-    // False position; the value of an end that stays is halved so that both ends move (Illinois).
-    double v = 0.5 * (low + high);
-    for (int step = 0; step < 100 && high - low > 0x1p-52; ++step) {
-        v = low - low_value * ((high - low) / (high_value - low_value));
-        if (!(v > low && v < high))
-            v = 0.5 * (low + high);
-        if (v == low || v == high)
-            break;
-        const double value = ahead(v);
-        if (value == 0)
-            break;
-        if (value < 0) {
-            low = v;
-            low_value = value;
-            high_value *= 0.5;
-        } else {
-            high = v;
-            high_value = value;
-            low_value *= 0.5;
-        }
-    }
-    return v;
+    return bracketed_zero(low, low_value, high, high_value, ahead);
 }
 
 } // namespace vera
