@@ -145,15 +145,16 @@ plane_place(D, const TestedRays<D>& rays, const hn::Vec<D>* values) {
         hn::Sub(values[2], rays.origin[2])};
     V moment[3];
     cross3(to_corner, rays.direction, moment);
-    PlanePlace<V> place;
-    place.speed = dot3(normal, rays.direction);
-    place.depth = dot3(normal, to_corner);
-    place.u = dot3(moment, f);
-    place.v = hn::Neg(dot3(moment, e));
     const V largest_e = hn::Max(hn::Abs(e[0]), hn::Max(hn::Abs(e[1]), hn::Abs(e[2])));
     const V largest_f = hn::Max(hn::Abs(f[0]), hn::Max(hn::Abs(f[1]), hn::Abs(f[2])));
-    place.largest = hn::Max(largest_e, largest_f);
-    return place;
+    // Filled as it is made: GCC gives a constructor that it makes itself none of the instructions
+    // of its place, and some vectors have constructors that then cannot be inlined.
+    return {
+        dot3(moment, f),
+        hn::Neg(dot3(moment, e)),
+        dot3(normal, rays.direction),
+        dot3(normal, to_corner),
+        hn::Max(largest_e, largest_f)};
 }
 
 template <typename D>
