@@ -9,11 +9,11 @@
 // starts on the element does not meet it again. What is neither sure nor ruled out is for the test
 // that decides.
 
-#if defined(VERA_ACCEL_ELEMENT_TESTS_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef VERA_ACCEL_ELEMENT_TESTS_INL_H_
-#undef VERA_ACCEL_ELEMENT_TESTS_INL_H_
+#if defined(VERA_ACCEL_ELEMENT_TESTS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef VERA_ACCEL_ELEMENT_TESTS_INL_H
+#undef VERA_ACCEL_ELEMENT_TESTS_INL_H
 #else
-#define VERA_ACCEL_ELEMENT_TESTS_INL_H_
+#define VERA_ACCEL_ELEMENT_TESTS_INL_H
 #endif
 
 #include "vera/accel/element_records.h"
@@ -22,8 +22,7 @@
 
 HWY_BEFORE_NAMESPACE();
 
-namespace vera::detail {
-namespace HWY_NAMESPACE {
+namespace vera::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -110,15 +109,14 @@ surely_meets_ball(D d, const TestedRays<D>& rays, const hn::Vec<D>* center, hn::
     const V start_squared = dot3(to_center, to_center);
     const V middle_squared = hn::Add(distance_squared, hn::Mul(to_t, to_t));
     const V end_squared = hn::Add(distance_squared, hn::Mul(to_end, to_end));
-    const auto ends_outside = hn::Or(
-        hn::Gt(start_squared, outer_squared), hn::Gt(end_squared, outer_squared));
+    const auto ends_outside =
+        hn::Or(hn::Gt(start_squared, outer_squared), hn::Gt(end_squared, outer_squared));
     return hn::And(
         hn::And(hn::Lt(middle_squared, inner_squared), ends_outside), hn::Gt(end, hn::Zero(d)));
 }
 
 /// Where rays meet the plane of a face: at corner + (u e + v f) / speed, and there t is
-/// depth / speed. They meet the face if the numbers from lowest to highest, one for each side and
-/// each off by up to error, have one sign.
+/// depth / speed.
 template <typename V>
 struct PlanePlace {
     V u;
@@ -126,6 +124,13 @@ struct PlanePlace {
     V speed;
     V depth;
     V largest; ///< of the components of e and f, without their signs
+};
+
+/// The same, and whether that is within the face: it is if the numbers from lowest to highest, one
+/// for each side and each off by up to error, have one sign.
+template <typename V>
+struct FacePlace {
+    PlanePlace<V> plane;
     V lowest;
     V highest;
     V error;
@@ -158,23 +163,24 @@ plane_place(D, const TestedRays<D>& rays, const hn::Vec<D>* values) {
 }
 
 template <typename D>
-HWY_INLINE PlanePlace<hn::Vec<D>>
+HWY_INLINE FacePlace<hn::Vec<D>>
 triangle_place(D d, const TestedRays<D>& rays, const hn::Vec<D>* values) {
-    auto place = plane_place(d, rays, values);
+    const auto place = plane_place(d, rays, values);
     const auto w = hn::Sub(hn::Sub(place.speed, place.u), place.v);
-    place.lowest = hn::Min(hn::Min(place.u, place.v), w);
-    place.highest = hn::Max(hn::Max(place.u, place.v), w);
     // Moving the ray by slack changes a volume with an edge by at most slack times the edge's
     // length, which is at most sqrt(3) times its largest component; the third is a sum of two.
-    place.error = hn::Mul(hn::Set(d, 4 * rays.slack), place.largest);
-    return place;
+    return {
+        place,
+        hn::Min(hn::Min(place.u, place.v), w),
+        hn::Max(hn::Max(place.u, place.v), w),
+        hn::Mul(hn::Set(d, 4 * rays.slack), place.largest)};
 }
 
 template <typename D>
-HWY_INLINE PlanePlace<hn::Vec<D>>
+HWY_INLINE FacePlace<hn::Vec<D>>
 quadrangle_place(D d, const TestedRays<D>& rays, const hn::Vec<D>* values) {
     using V = hn::Vec<D>;
-    auto place = plane_place(d, rays, values);
+    const auto place = plane_place(d, rays, values);
     // Left of the sides from (1, 0) to the fourth corner (x, y) and from there to (0, 1).
     const V one = hn::Set(d, 1);
     const V x = values[9];
@@ -183,20 +189,22 @@ quadrangle_place(D d, const TestedRays<D>& rays, const hn::Vec<D>* values) {
         hn::Sub(hn::Mul(hn::Sub(x, one), place.v), hn::Mul(y, hn::Sub(place.u, place.speed)));
     const V other =
         hn::Sub(hn::Mul(hn::Sub(y, one), place.u), hn::Mul(x, hn::Sub(place.v, place.speed)));
-    place.lowest = hn::Min(hn::Min(place.u, place.v), hn::Min(side, other));
-    place.highest = hn::Max(hn::Max(place.u, place.v), hn::Max(side, other));
     const V sizes = hn::Add(one, hn::Add(hn::Abs(x), hn::Abs(y)));
-    place.error = hn::Mul(hn::Mul(hn::Set(d, 8 * rays.slack), place.largest), sizes);
-    return place;
+    return {
+        place,
+        hn::Min(hn::Min(place.u, place.v), hn::Min(side, other)),
+        hn::Max(hn::Max(place.u, place.v), hn::Max(side, other)),
+        hn::Mul(hn::Mul(hn::Set(d, 8 * rays.slack), place.largest), sizes)};
 }
 
 /// Whether the face may be met between 0 and the limit.
 template <typename D>
 HWY_INLINE hn::Mask<D>
-meets_face(D d, const TestedRays<D>& rays, const PlanePlace<hn::Vec<D>>& place) {
+meets_face(D d, const TestedRays<D>& rays, const FacePlace<hn::Vec<D>>& face) {
     using V = hn::Vec<D>;
+    const PlanePlace<V>& place = face.plane;
     const auto met =
-        hn::Or(hn::Ge(place.lowest, hn::Neg(place.error)), hn::Le(place.highest, place.error));
+        hn::Or(hn::Ge(face.lowest, hn::Neg(face.error)), hn::Le(face.highest, face.error));
     const V size = hn::Abs(place.speed);
     const V t_size = hn::Mul(place.depth, hn::CopySignToAbs(hn::Set(d, 1), place.speed));
     const V deep = hn::Mul(hn::Set(d, 8 * rays.slack), hn::Mul(place.largest, place.largest));
@@ -209,10 +217,11 @@ meets_face(D d, const TestedRays<D>& rays, const PlanePlace<hn::Vec<D>>& place) 
 /// Whether the face is surely met there: all as above with twice the margins, on the other side.
 template <typename D>
 HWY_INLINE hn::Mask<D>
-surely_meets_face(D d, const TestedRays<D>& rays, const PlanePlace<hn::Vec<D>>& place) {
+surely_meets_face(D d, const TestedRays<D>& rays, const FacePlace<hn::Vec<D>>& face) {
     using V = hn::Vec<D>;
-    const V error = hn::Add(place.error, place.error);
-    const auto met = hn::Or(hn::Gt(place.lowest, error), hn::Lt(place.highest, hn::Neg(error)));
+    const PlanePlace<V>& place = face.plane;
+    const V error = hn::Add(face.error, face.error);
+    const auto met = hn::Or(hn::Gt(face.lowest, error), hn::Lt(face.highest, hn::Neg(error)));
     const V size = hn::Abs(place.speed);
     const V t_size = hn::Mul(place.depth, hn::CopySignToAbs(hn::Set(d, 1), place.speed));
     const V deep = hn::Mul(hn::Set(d, 16 * rays.slack), hn::Mul(place.largest, place.largest));
@@ -332,10 +341,10 @@ surely_meets_mantle(D d, const TestedRays<D>& rays, const hn::Vec<D>* values) {
             hn::And(hn::Gt(first, margin), hn::Lt(last, end)),
             hn::And(at_heights(first), at_heights(last)));
     };
-    const auto entering = between(
-        hn::Sub(hn::Sub(middle, longer), off), hn::Add(hn::Sub(middle, shorter), off));
-    const auto leaving = between(
-        hn::Sub(hn::Add(middle, shorter), off), hn::Add(hn::Add(middle, longer), off));
+    const auto entering =
+        between(hn::Sub(hn::Sub(middle, longer), off), hn::Add(hn::Sub(middle, shorter), off));
+    const auto leaving =
+        between(hn::Sub(hn::Add(middle, shorter), off), hn::Add(hn::Add(middle, longer), off));
     return hn::And(passes, hn::Or(entering, leaving));
 }
 
@@ -414,10 +423,7 @@ surely_leaves(D d, const TestedRays<D>& rays, ElementRecord::Kind kind, const hn
 struct MayMeet {
     template <typename D>
     HWY_INLINE hn::Mask<D> operator()(
-        D d,
-        const TestedRays<D>& rays,
-        ElementRecord::Kind kind,
-        const hn::Vec<D>* values) const {
+        D d, const TestedRays<D>& rays, ElementRecord::Kind kind, const hn::Vec<D>* values) const {
         return may_meet(d, rays, kind, values);
     }
 };
@@ -425,10 +431,7 @@ struct MayMeet {
 struct SurelyMeets {
     template <typename D>
     HWY_INLINE hn::Mask<D> operator()(
-        D d,
-        const TestedRays<D>& rays,
-        ElementRecord::Kind kind,
-        const hn::Vec<D>* values) const {
+        D d, const TestedRays<D>& rays, ElementRecord::Kind kind, const hn::Vec<D>* values) const {
         return surely_meets(d, rays, kind, values);
     }
 };
@@ -436,16 +439,12 @@ struct SurelyMeets {
 struct SurelyLeaves {
     template <typename D>
     HWY_INLINE hn::Mask<D> operator()(
-        D d,
-        const TestedRays<D>& rays,
-        ElementRecord::Kind kind,
-        const hn::Vec<D>* values) const {
+        D d, const TestedRays<D>& rays, ElementRecord::Kind kind, const hn::Vec<D>* values) const {
         return surely_leaves(d, rays, kind, values);
     }
 };
 
-} // namespace HWY_NAMESPACE
-} // namespace vera::detail
+} // namespace vera::detail::HWY_NAMESPACE
 
 HWY_AFTER_NAMESPACE();
 

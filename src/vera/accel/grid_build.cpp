@@ -415,7 +415,7 @@ std::size_t forecast_bytes(
     }
     const double budget = settings.references * count;
     const double outer = std::min(0.5 * budget, touched / std::max(sampled, 1.0) * count);
-    const double cells = static_cast<double>(cell_count(grid));
+    const auto cells = static_cast<double>(cell_count(grid));
     // What crowded cells will add is not known before: as much again as the outer grid is typical.
     const double all_references = std::min(budget, 2.5 * outer);
     const double all_cells = cells + settings.crowd_density * count;

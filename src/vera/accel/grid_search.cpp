@@ -17,8 +17,7 @@
 
 HWY_BEFORE_NAMESPACE();
 
-namespace vera::detail {
-namespace HWY_NAMESPACE {
+namespace vera::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -330,7 +329,7 @@ HWY_INLINE double last_place(
             hn::Add(row<Width>(frame.origin[k], i), hn::Mul(t, row<Width>(frame.direction[k], i))),
             mask_of<Width>(lanes, i));
     }
-    const double last = static_cast<double>(advance.forward ? places.most() : places.least());
+    const auto last = static_cast<double>(advance.forward ? places.most() : places.least());
     return (last - grid.box.lower[k]) * grid.cells_per_unit[k];
 }
 
@@ -365,6 +364,31 @@ inline MovingWindow first_window(const Way& way, double left) {
     return window;
 }
 
+/// Cells of a slice of a grid: those from (u[0], v[0]) to (u[1], v[1]).
+struct CellBlock {
+    const Cell* slice = nullptr;
+    std::size_t u_stride = 0;
+    std::size_t v_stride = 0;
+    std::size_t u[2] = {};
+    std::size_t v[2] = {};
+};
+
+template <std::size_t Width>
+HWY_INLINE void visit_cells(
+    PacketQuery& query, Frame& frame, std::size_t first, LaneMask lanes, const CellBlock& block) {
+    query.counts.cells += (block.u[1] - block.u[0] + 1) * (block.v[1] - block.v[0] + 1);
+    for (std::size_t v = block.v[0]; v <= block.v[1]; ++v)
+        for (std::size_t u = block.u[0]; u <= block.u[1]; ++u) {
+            const Cell cell = block.slice[u * block.u_stride + v * block.v_stride];
+            if (cell.empty())
+                continue;
+            if (cell.is_grid())
+                visit_grid<Width>(query, frame, first, lanes, cell.grid());
+            else
+                visit_list<Width>(query, frame, first, lanes, cell.list());
+        }
+}
+
 /// Follows the packet slice by slice. All that a step does to the window is additions.
 template <std::size_t Width>
 void follow(
@@ -386,10 +410,8 @@ void follow(
     const std::int32_t along_count = counts[advance.axis];
     const double u_end = counts[advance.u_axis];
     const double v_end = counts[advance.v_axis];
-    const std::size_t u_last = static_cast<std::size_t>(counts[advance.u_axis] - 1);
-    const std::size_t v_last = static_cast<std::size_t>(counts[advance.v_axis] - 1);
-    const std::size_t u_stride = strides[advance.u_axis];
-    const std::size_t v_stride = strides[advance.v_axis];
+    const auto u_last = static_cast<std::size_t>(counts[advance.u_axis] - 1);
+    const auto v_last = static_cast<std::size_t>(counts[advance.v_axis] - 1);
 
     std::int32_t slice = slice_at(way.enter - sign * way.margin, along_count);
     std::int32_t last = slice_at(way.leave + sign * way.margin, along_count);
@@ -402,21 +424,15 @@ void follow(
     while (true) {
         const double* now = window.now.values;
         if (now[1] >= 0 && now[3] >= 0 && now[0] < u_end && now[2] < v_end) {
-            const auto u0 = static_cast<std::size_t>(std::max(now[0], 0.0));
-            const auto u1 = std::min(static_cast<std::size_t>(std::min(now[1], u_end)), u_last);
-            const auto v0 = static_cast<std::size_t>(std::max(now[2], 0.0));
-            const auto v1 = std::min(static_cast<std::size_t>(std::min(now[3], v_end)), v_last);
-            query.counts.cells += (u1 - u0 + 1) * (v1 - v0 + 1);
-            for (std::size_t v = v0; v <= v1; ++v)
-                for (std::size_t u = u0; u <= u1; ++u) {
-                    const Cell cell = cells[u * u_stride + v * v_stride];
-                    if (cell.empty())
-                        continue;
-                    if (cell.is_grid())
-                        visit_grid<Width>(query, frame, first, lanes, cell.grid());
-                    else
-                        visit_list<Width>(query, frame, first, lanes, cell.list());
-                }
+            const CellBlock block = {
+                cells,
+                strides[advance.u_axis],
+                strides[advance.v_axis],
+                {static_cast<std::size_t>(std::max(now[0], 0.0)),
+                 std::min(static_cast<std::size_t>(std::min(now[1], u_end)), u_last)},
+                {static_cast<std::size_t>(std::max(now[2], 0.0)),
+                 std::min(static_cast<std::size_t>(std::min(now[3], v_end)), v_last)}};
+            visit_cells<Width>(query, frame, first, lanes, block);
             if (query.changes != changes) {
                 changes = query.changes;
                 lanes &= query.active;
@@ -488,8 +504,7 @@ void search_grids_kernel(PacketQuery& query) {
         visit_grid<packet_size>(query, query.frames.front(), 0, lanes, 0);
 }
 
-} // namespace HWY_NAMESPACE
-} // namespace vera::detail
+} // namespace vera::detail::HWY_NAMESPACE
 
 HWY_AFTER_NAMESPACE();
 

@@ -77,7 +77,7 @@ std::vector<Made>
 made_of_geometries(const Scene& scene, const Progress& progress, const Build& build) {
     std::vector<Made> made;
     made.reserve(scene.subscenes.size() + 1);
-    double elements = static_cast<double>(scene.geometry.element_count);
+    auto elements = static_cast<double>(scene.geometry.element_count);
     for (const Geometry& subscene : scene.subscenes)
         elements += static_cast<double>(subscene.element_count);
     double done = 0;

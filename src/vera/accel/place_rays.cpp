@@ -12,8 +12,7 @@
 
 HWY_BEFORE_NAMESPACE();
 
-namespace vera::detail {
-namespace HWY_NAMESPACE {
+namespace vera::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -170,8 +169,7 @@ void transform_rays_kernel(const Affine3& map, const RayRows& rays, RayRows& res
     }
 }
 
-} // namespace HWY_NAMESPACE
-} // namespace vera::detail
+} // namespace vera::detail::HWY_NAMESPACE
 
 HWY_AFTER_NAMESPACE();
 

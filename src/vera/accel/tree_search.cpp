@@ -16,8 +16,7 @@
 
 HWY_BEFORE_NAMESPACE();
 
-namespace vera::detail {
-namespace HWY_NAMESPACE {
+namespace vera::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -189,6 +188,30 @@ void visit_block_alone(PacketQuery& query, Frame& frame, const TreeChild& child,
     }
 }
 
+/// The nearest of the children that a ray meets. The others wait, the nearest on top.
+HWY_INLINE TreeChild nearest_child(
+    const WideNode& node, std::uint32_t met, const float* near, std::vector<WaitingAlone>& stack) {
+    auto i = static_cast<std::size_t>(std::countr_zero(met));
+    met &= met - 1;
+    if (met == 0)
+        return child_of(node, i);
+    const std::size_t first = stack.size();
+    while (true) {
+        std::size_t place = stack.size();
+        stack.push_back({child_of(node, i), near[i]});
+        for (; place > first && stack[place - 1].near < near[i]; --place)
+            stack[place] = stack[place - 1];
+        stack[place] = {child_of(node, i), near[i]};
+        if (met == 0)
+            break;
+        i = static_cast<std::size_t>(std::countr_zero(met));
+        met &= met - 1;
+    }
+    const TreeChild nearest = stack.back().child;
+    stack.pop_back();
+    return nearest;
+}
+
 /// Follows one ray down from a node, or a block: the nearest boxes first.
 void search_alone(PacketQuery& query, Frame& frame, std::size_t lane, const TreeChild& from) {
     const GeometryTree& tree = tree_of(frame);
@@ -201,29 +224,9 @@ void search_alone(PacketQuery& query, Frame& frame, std::size_t lane, const Tree
             ++query.counts.cells;
             const WideNode& node = tree.nodes[next.first];
             alignas(64) float near[tree_width];
-            std::uint32_t met = met_children(node, ray, frame.limit[lane], near);
+            const std::uint32_t met = met_children(node, ray, frame.limit[lane], near);
             if (met != 0) {
-                auto i = static_cast<std::size_t>(std::countr_zero(met));
-                met &= met - 1;
-                if (met == 0) {
-                    next = child_of(node, i);
-                    continue;
-                }
-                // The others wait, the nearest on top.
-                const std::size_t first = stack.size();
-                while (true) {
-                    std::size_t place = stack.size();
-                    stack.push_back({child_of(node, i), near[i]});
-                    for (; place > first && stack[place - 1].near < near[i]; --place)
-                        stack[place] = stack[place - 1];
-                    stack[place] = {child_of(node, i), near[i]};
-                    if (met == 0)
-                        break;
-                    i = static_cast<std::size_t>(std::countr_zero(met));
-                    met &= met - 1;
-                }
-                next = stack.back().child;
-                stack.pop_back();
+                next = nearest_child(node, met, near, stack);
                 continue;
             }
         } else {
@@ -279,7 +282,7 @@ HWY_INLINE void fill_box_rays(const Frame& frame, LaneMask lanes, BoxRays& rays)
 }
 
 /// The lanes that meet the box of a node's child before their limits, and where they enter it.
-template <bool one_octant>
+template <bool OneOctant>
 HWY_INLINE LaneMask meeting_child(
     const WideNode& node,
     std::size_t child,
@@ -293,10 +296,10 @@ HWY_INLINE LaneMask meeting_child(
         auto far = hn::LoadU(d, limit.data() + i);
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const auto inverse = hn::LoadU(d, rays.inverse[axis].data() + i);
-            const bool turned = one_octant && rays.backward[axis];
+            const bool turned = OneOctant && rays.backward[axis];
             auto first = hn::Set(d, (turned ? node.upper : node.lower)[axis][child]);
             auto last = hn::Set(d, (turned ? node.lower : node.upper)[axis][child]);
-            if constexpr (!one_octant) {
+            if constexpr (!OneOctant) {
                 const auto backward = hn::Lt(inverse, hn::Zero(d));
                 const auto lower = first;
                 first = hn::IfThenElse(backward, last, lower);
@@ -394,63 +397,77 @@ struct MetByPacket {
     float near = 0;
 };
 
+/// Lets the children wait that some of the lanes meet, the nearest on top.
+HWY_INLINE void add_met_children(
+    const WideNode& node,
+    const BoxRays& rays,
+    const Frame& frame,
+    LaneMask lanes,
+    std::vector<WaitingTogether>& stack) {
+    const auto guide = static_cast<std::size_t>(std::countr_zero(lanes));
+    alignas(64) Frame::Row near[tree_width];
+    MetByPacket met[tree_width];
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < tree_width && node.kind[i] != ChildKind::none; ++i) {
+        MetByPacket child;
+        child.child = i;
+        child.lanes = lanes
+            & (rays.one_octant ? meeting_child<true>(node, i, rays, frame.limit, near[i])
+                               : meeting_child<false>(node, i, rays, frame.limit, near[i]));
+        if (child.lanes == 0)
+            continue;
+        child.near = near[i][guide];
+        std::size_t place = count++;
+        for (; place > 0 && met[place - 1].near < child.near; --place)
+            met[place] = met[place - 1];
+        met[place] = child;
+    }
+    for (std::size_t i = 0; i < count; ++i)
+        stack.push_back({child_of(node, met[i].child), met[i].lanes, near[met[i].child]});
+}
+
+/// Takes the next child off the stack that lanes enter before their limits; returns these lanes,
+/// none when no child is left above the bottom.
+HWY_INLINE LaneMask
+take_waiting(PacketQuery& query, const Frame& frame, std::size_t bottom, TreeChild& next) {
+    const Lanes d;
+    std::vector<WaitingTogether>& stack = query.waiting_together;
+    LaneMask lanes = 0;
+    while (lanes == 0 && stack.size() > bottom) {
+        const WaitingTogether& waiting = stack.back();
+        LaneMask before_limit = 0;
+        for (std::size_t i = 0; i < packet_size; i += hn::Lanes(d))
+            before_limit |= bits_of(
+                                d,
+                                hn::Le(
+                                    hn::LoadU(d, waiting.near.data() + i),
+                                    hn::LoadU(d, frame.limit.data() + i)))
+                << i;
+        lanes = waiting.lanes & before_limit & query.active;
+        next = waiting.child;
+        stack.pop_back();
+    }
+    return lanes;
+}
+
 /// Follows a packet down from the root. Where few of its rays are left, each goes on alone.
 void search_together(PacketQuery& query, Frame& frame, LaneMask lanes) {
-    const Lanes d;
     const GeometryTree& tree = tree_of(frame);
     BoxRays rays;
     fill_box_rays(frame, lanes, rays);
-    std::vector<WaitingTogether>& stack = query.waiting_together;
-    const std::size_t bottom = stack.size();
+    const std::size_t bottom = query.waiting_together.size();
     TreeChild next = {0, ChildKind::node, 0};
-    alignas(64) Frame::Row near[tree_width];
-    while (true) {
+    while (lanes != 0) {
         if (std::popcount(lanes) <= few_lanes) {
             for (LaneMask rest = lanes; rest != 0; rest &= rest - 1)
                 search_alone(query, frame, static_cast<std::size_t>(std::countr_zero(rest)), next);
         } else if (next.kind == ChildKind::node) {
             query.counts.cells += static_cast<std::uint64_t>(std::popcount(lanes));
-            const WideNode& node = tree.nodes[next.first];
-            const auto guide = static_cast<std::size_t>(std::countr_zero(lanes));
-            MetByPacket met[tree_width];
-            std::size_t count = 0;
-            for (std::size_t i = 0; i < tree_width && node.kind[i] != ChildKind::none; ++i) {
-                MetByPacket child;
-                child.child = i;
-                child.lanes = lanes
-                    & (rays.one_octant ? meeting_child<true>(node, i, rays, frame.limit, near[i])
-                                       : meeting_child<false>(node, i, rays, frame.limit, near[i]));
-                if (child.lanes == 0)
-                    continue;
-                child.near = near[i][guide];
-                std::size_t place = count++;
-                for (; place > 0 && met[place - 1].near < child.near; --place)
-                    met[place] = met[place - 1];
-                met[place] = child;
-            }
-            for (std::size_t i = 0; i < count; ++i)
-                stack.push_back({child_of(node, met[i].child), met[i].lanes, near[met[i].child]});
+            add_met_children(tree.nodes[next.first], rays, frame, lanes, query.waiting_together);
         } else {
             visit_block(query, frame, next, lanes);
         }
-
-        lanes = 0;
-        while (lanes == 0 && stack.size() > bottom) {
-            const WaitingTogether& waiting = stack.back();
-            LaneMask before_limit = 0;
-            for (std::size_t i = 0; i < packet_size; i += hn::Lanes(d))
-                before_limit |= bits_of(
-                                    d,
-                                    hn::Le(
-                                        hn::LoadU(d, waiting.near.data() + i),
-                                        hn::LoadU(d, frame.limit.data() + i)))
-                    << i;
-            lanes = waiting.lanes & before_limit & query.active;
-            next = waiting.child;
-            stack.pop_back();
-        }
-        if (lanes == 0)
-            return;
+        lanes = take_waiting(query, frame, bottom, next);
     }
 }
 
@@ -469,8 +486,7 @@ void search_trees_kernel(PacketQuery& query) {
         search_tree(query, query.frames.front(), lanes);
 }
 
-} // namespace HWY_NAMESPACE
-} // namespace vera::detail
+} // namespace vera::detail::HWY_NAMESPACE
 
 HWY_AFTER_NAMESPACE();
 

@@ -13,8 +13,7 @@
 
 HWY_BEFORE_NAMESPACE();
 
-namespace vera {
-namespace HWY_NAMESPACE {
+namespace vera::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -323,8 +322,7 @@ void refract_kernel(const PlaceBlock* blocks, std::size_t count, RefractionBlock
     }
 }
 
-} // namespace HWY_NAMESPACE
-} // namespace vera
+} // namespace vera::HWY_NAMESPACE
 
 HWY_AFTER_NAMESPACE();
 
