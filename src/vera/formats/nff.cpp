@@ -283,7 +283,7 @@ private:
             return false;
         sphere.radius = std::abs(sphere.radius);
         if (sphere.radius > 0)
-            add(scene_.geometry.spheres, std::move(sphere), ItemKind::sphere);
+            add(scene_.geometry.spheres, sphere, ItemKind::sphere);
         else
             without_area_.add(start_);
         return true;
@@ -394,7 +394,7 @@ private:
             kind == OutlineKind::convex ? Polygon::Shape::convex : Polygon::Shape::simple;
         polygon.normal = normalized(doubled_area_vector(corners_));
         corners.insert(corners.end(), corners_.begin(), corners_.end());
-        add(scene_.geometry.polygons, std::move(polygon), ItemKind::polygon);
+        add(scene_.geometry.polygons, polygon, ItemKind::polygon);
     }
 
     bool read_patch() {

@@ -11,9 +11,8 @@ namespace vera {
 
 void TextCursor::skip_more() {
     while (at_ != end_) {
-        if (*at_ == ' ' || *at_ == '\t' || *at_ == '\r') {
-            ++at_;
-        } else if (*at_ == '\n' && newlines_are_blanks()) {
+        if (*at_ == ' ' || *at_ == '\t' || *at_ == '\r'
+            || (*at_ == '\n' && newlines_are_blanks())) {
             ++at_;
         } else if (*at_ == '#' && lines_ == Lines::newlines_and_comments_are_blanks) {
             while (at_ != end_ && *at_ != '\n')
