@@ -3,7 +3,8 @@
 
 #include "vera/accel/brute_force.h"
 
-#include <cstring>
+#include <bit>
+#include <cstdint>
 
 #include "random_scene.h"
 #include <gtest/gtest.h>
@@ -22,7 +23,7 @@ Answers answers(const RayIndex& index, const std::vector<QueryRay>& rays) {
 namespace {
 
 bool same_bits(double a, double b) {
-    return std::memcmp(&a, &b, sizeof a) == 0;
+    return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
 }
 
 } // namespace

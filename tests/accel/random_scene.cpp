@@ -243,8 +243,9 @@ std::vector<QueryRay> coherent_rays(std::uint64_t seed, std::size_t count, doubl
         for (int i = 0; i < 16; ++i) {
             QueryRay query;
             query.ray.origin = origin;
-            const Vec3 aside = {
-                spread * static_cast<double>(i % 4), spread * static_cast<double>(i / 4), 0};
+            const int column = i % 4;
+            const int row = i / 4;
+            const Vec3 aside = {spread * column, spread * row, 0};
             query.ray.direction = normalized(target + scale * aside - origin);
             if (query.ray.direction == Vec3{})
                 query.ray.direction = {0, 0, 1};

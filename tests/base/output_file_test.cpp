@@ -83,11 +83,11 @@ class OutputFileTest : public testing::Test {
 protected:
     OutputFileTest() {
         std::string name = (fs::temp_directory_path() / "vera-output-XXXXXX").native();
-        folder_ = mkdtemp(name.data());
-        target_ = folder_ / "picture.png";
+        folder = mkdtemp(name.data());
+        target = folder / "picture.png";
     }
 
-    ~OutputFileTest() override { fs::remove_all(folder_); }
+    ~OutputFileTest() override { fs::remove_all(folder); }
 
     /// The message with which opening a file at the path fails.
     static std::string message(const fs::path& path) {
@@ -99,91 +99,91 @@ protected:
         return "";
     }
 
-    fs::path folder_;
-    fs::path target_;
+    fs::path folder;
+    fs::path target;
 };
 
 TEST_F(OutputFileTest, AppearsWhenItIsCommittedAndNotBefore) {
-    OutputFile file(target_);
-    EXPECT_EQ(file.name(), "'" + target_.native() + "'");
+    OutputFile file(target);
+    EXPECT_EQ(file.name(), "'" + target.native() + "'");
     file.write("one, ");
-    EXPECT_FALSE(fs::exists(target_));
-    EXPECT_THAT(names_in(folder_), ElementsAre(StartsWith("picture.png.partial-")));
+    EXPECT_FALSE(fs::exists(target));
+    EXPECT_THAT(names_in(folder), ElementsAre(StartsWith("picture.png.partial-")));
     file.write("two");
     file.commit();
-    EXPECT_EQ(content(target_), "one, two");
-    EXPECT_THAT(names_in(folder_), ElementsAre("picture.png"));
+    EXPECT_EQ(content(target), "one, two");
+    EXPECT_THAT(names_in(folder), ElementsAre("picture.png"));
 }
 
 TEST_F(OutputFileTest, LeavesAllAsItWasWhenItIsNotCommitted) {
-    put(target_, "old");
+    put(target, "old");
     {
-        OutputFile file(target_);
+        OutputFile file(target);
         file.write(std::string(1'000'000, 'x'));
-        EXPECT_EQ(content(target_), "old");
+        EXPECT_EQ(content(target), "old");
     }
-    EXPECT_EQ(content(target_), "old");
-    EXPECT_THAT(names_in(folder_), ElementsAre("picture.png"));
+    EXPECT_EQ(content(target), "old");
+    EXPECT_THAT(names_in(folder), ElementsAre("picture.png"));
 }
 
 TEST_F(OutputFileTest, HoldsEveryByteOfPiecesOfAllSizes) {
     std::string expected;
-    OutputFile file(target_);
+    OutputFile file(target);
     for (const std::size_t size : {1U, 0U, 262143U, 262144U, 262145U, 7U, 1000000U, 100000U}) {
         const std::string piece(size, static_cast<char>('a' + expected.size() % 26));
         file.write(piece);
         expected += piece;
     }
     file.commit();
-    EXPECT_EQ(content(target_), expected);
+    EXPECT_EQ(content(target), expected);
 }
 
 TEST_F(OutputFileTest, CanBeWrittenOverInTheMiddle) {
-    OutputFile file(target_);
+    OutputFile file(target);
     ASSERT_TRUE(file.seekable());
     file.write("0123456789");
     file.write_at(3, std::as_bytes(std::span("ab", 2)));
     file.write("end");
     file.commit();
-    EXPECT_EQ(content(target_), "012ab56789end");
+    EXPECT_EQ(content(target), "012ab56789end");
 }
 
 TEST_F(OutputFileTest, HasThePermissionsThatTheUmaskLeaves) {
     const mode_t before = umask(027);
-    OutputFile file(target_);
+    OutputFile file(target);
     file.commit();
     umask(before);
-    EXPECT_EQ(permissions(target_), 0640U);
+    EXPECT_EQ(permissions(target), 0640U);
 }
 
 TEST_F(OutputFileTest, KeepsThePermissionsOfTheFileThatItReplaces) {
-    put(target_, "old");
-    chmod(target_.c_str(), 0600);
-    OutputFile file(target_);
+    put(target, "old");
+    chmod(target.c_str(), 0600);
+    OutputFile file(target);
     file.commit();
-    EXPECT_EQ(permissions(target_), 0600U);
+    EXPECT_EQ(permissions(target), 0600U);
 }
 
 TEST_F(OutputFileTest, ReplacesWhatASymbolicLinkPointsTo) {
-    fs::create_directory(folder_ / "other");
-    put(folder_ / "other" / "real.png", "old");
-    fs::create_symlink("other/real.png", folder_ / "middle");
-    fs::create_symlink(folder_ / "middle", target_);
-    fs::create_symlink("other/new.png", folder_ / "dangling");
+    fs::create_directory(folder / "other");
+    put(folder / "other" / "real.png", "old");
+    fs::create_symlink("other/real.png", folder / "middle");
+    fs::create_symlink(folder / "middle", target);
+    fs::create_symlink("other/new.png", folder / "dangling");
     for (const char* link : {"picture.png", "dangling"}) {
-        OutputFile file(folder_ / link);
+        OutputFile file(folder / link);
         file.write("new");
         file.commit();
-        EXPECT_TRUE(fs::is_symlink(folder_ / link));
+        EXPECT_TRUE(fs::is_symlink(folder / link));
     }
-    EXPECT_THAT(names_in(folder_ / "other"), ElementsAre("new.png", "real.png"));
-    EXPECT_EQ(content(folder_ / "other" / "real.png"), "new");
+    EXPECT_THAT(names_in(folder / "other"), ElementsAre("new.png", "real.png"));
+    EXPECT_EQ(content(folder / "other" / "real.png"), "new");
 }
 
 TEST_F(OutputFileTest, FindsItsPlaceThoughTheWorkingFolderChanges) {
     EXPECT_EQ(
         outcome([&] {
-            fs::current_path(folder_);
+            fs::current_path(folder);
             OutputFile file("picture.png");
             fs::current_path("/");
             file.write("x");
@@ -191,39 +191,39 @@ TEST_F(OutputFileTest, FindsItsPlaceThoughTheWorkingFolderChanges) {
             return 0;
         }),
         0);
-    EXPECT_EQ(content(target_), "x");
+    EXPECT_EQ(content(target), "x");
 }
 
 TEST_F(OutputFileTest, SaysAtOnceWhatMakesItImpossible) {
-    put(folder_ / "file", "");
-    fs::create_symlink("loop", folder_ / "loop");
-    const std::string quoted = "cannot write '" + folder_.native();
-    EXPECT_THAT(message(folder_), StartsWith(quoted + "'; give the name of a file in it: "));
+    put(folder / "file", "");
+    fs::create_symlink("loop", folder / "loop");
+    const std::string quoted = "cannot write '" + folder.native();
+    EXPECT_THAT(message(folder), StartsWith(quoted + "'; give the name of a file in it: "));
     EXPECT_THAT(
-        message(folder_ / "none" / "a.png"),
+        message(folder / "none" / "a.png"),
         StartsWith(quoted + "/none/a.png'; make its folder first: "));
-    EXPECT_THAT(message(folder_ / "none" / ""), HasSubstr("give the name of a file in it"));
+    EXPECT_THAT(message(folder / "none" / ""), HasSubstr("give the name of a file in it"));
     EXPECT_THAT(
-        message(folder_ / "file" / "a.png"), HasSubstr("what should be its folder is a file"));
-    EXPECT_THAT(message(folder_ / std::string(300, 'x')), HasSubstr("choose a shorter name"));
-    EXPECT_THAT(message(folder_ / "loop"), HasSubstr("cannot write"));
+        message(folder / "file" / "a.png"), HasSubstr("what should be its folder is a file"));
+    EXPECT_THAT(message(folder / std::string(300, 'x')), HasSubstr("choose a shorter name"));
+    EXPECT_THAT(message(folder / "loop"), HasSubstr("cannot write"));
     EXPECT_THAT(message(""), HasSubstr("cannot write"));
-    EXPECT_THAT(names_in(folder_), ElementsAre("file", "loop"));
+    EXPECT_THAT(names_in(folder), ElementsAre("file", "loop"));
 }
 
 TEST_F(OutputFileTest, MayHaveTheLongestName) {
     const std::string name(255, 'x');
-    OutputFile file(folder_ / name);
+    OutputFile file(folder / name);
     file.commit();
-    EXPECT_THAT(names_in(folder_), ElementsAre(name));
+    EXPECT_THAT(names_in(folder), ElementsAre(name));
 }
 
 TEST_F(OutputFileTest, RespectsWhatItMayNotWriteTo) {
-    fs::create_directory(folder_ / "locked");
-    put(target_, "protected");
-    chmod(target_.c_str(), 0444);
-    chmod((folder_ / "locked").c_str(), 0555);
-    chmod(folder_.c_str(), 0777);
+    fs::create_directory(folder / "locked");
+    put(target, "protected");
+    chmod(target.c_str(), 0444);
+    chmod((folder / "locked").c_str(), 0555);
+    chmod(folder.c_str(), 0777);
     const std::string remedy = "'; choose a folder and a file that you may write to: ";
     const auto code_as_user = [&](const fs::path& path) {
         return outcome([&] {
@@ -233,10 +233,10 @@ TEST_F(OutputFileTest, RespectsWhatItMayNotWriteTo) {
             return error_code([&] { const OutputFile file(path); }, path.native() + remedy);
         });
     };
-    EXPECT_EQ(code_as_user(target_), EACCES);
-    EXPECT_EQ(code_as_user(folder_ / "locked" / "a.png"), EACCES);
-    EXPECT_EQ(content(target_), "protected");
-    EXPECT_THAT(names_in(folder_ / "locked"), IsEmpty());
+    EXPECT_EQ(code_as_user(target), EACCES);
+    EXPECT_EQ(code_as_user(folder / "locked" / "a.png"), EACCES);
+    EXPECT_EQ(content(target), "protected");
+    EXPECT_THAT(names_in(folder / "locked"), IsEmpty());
 }
 
 TEST_F(OutputFileTest, WritesToDevicesDirectly) {
@@ -257,10 +257,10 @@ TEST_F(OutputFileTest, SaysThatADeviceIsFullAtTheLatestWhenCommitted) {
 
 TEST_F(OutputFileTest, WritesToStandardOutput) {
     for (const char* name : {"-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"}) {
-        put(target_, "before ");
+        put(target, "before ");
         EXPECT_EQ(
             outcome([&] {
-                if (std::freopen(target_.c_str(), "a", stdout) == nullptr)
+                if (std::freopen(target.c_str(), "a", stdout) == nullptr)
                     return 1;
                 OutputFile file(name);
                 if (file.seekable())
@@ -271,9 +271,9 @@ TEST_F(OutputFileTest, WritesToStandardOutput) {
                 return ::write(STDOUT_FILENO, "y", 1) == 1 ? 0 : 3;
             }),
             0);
-        EXPECT_EQ(content(target_), "before xy") << name;
+        EXPECT_EQ(content(target), "before xy") << name;
     }
-    EXPECT_THAT(names_in(folder_), ElementsAre("picture.png"));
+    EXPECT_THAT(names_in(folder), ElementsAre("picture.png"));
 }
 
 TEST_F(OutputFileTest, SaysThatStandardOutputIsClosed) {
@@ -286,7 +286,7 @@ TEST_F(OutputFileTest, SaysThatStandardOutputIsClosed) {
 }
 
 TEST_F(OutputFileTest, LeavesNothingWhenItGrowsBeyondALimit) {
-    put(target_, "old");
+    put(target, "old");
     EXPECT_EQ(
         outcome([&] {
             std::signal(SIGXFSZ, SIG_IGN);
@@ -294,33 +294,33 @@ TEST_F(OutputFileTest, LeavesNothingWhenItGrowsBeyondALimit) {
             setrlimit(RLIMIT_FSIZE, &limit);
             return error_code(
                 [&] {
-                    OutputFile file(target_);
+                    OutputFile file(target);
                     file.write(std::string(200'000, 'x'));
                     file.commit();
                 },
-                target_.native() + "'; raise the limit on the size of files");
+                target.native() + "'; raise the limit on the size of files");
         }),
         EFBIG);
-    EXPECT_EQ(content(target_), "old");
-    EXPECT_THAT(names_in(folder_), ElementsAre("picture.png"));
+    EXPECT_EQ(content(target), "old");
+    EXPECT_THAT(names_in(folder), ElementsAre("picture.png"));
 }
 
 TEST_F(OutputFileTest, LeavesNothingOnAFullDisk) {
-    if (mount("tmpfs", folder_.c_str(), "tmpfs", 0, "size=64k") != 0)
+    if (mount("tmpfs", folder.c_str(), "tmpfs", 0, "size=64k") != 0)
         GTEST_SKIP() << "this process may not mount file systems";
-    put(target_, "old");
+    put(target, "old");
     EXPECT_EQ(
         error_code(
             [&] {
-                OutputFile file(target_);
+                OutputFile file(target);
                 file.write(std::string(100'000, 'x'));
                 file.commit();
             },
-            "cannot write '" + target_.native() + "'; free some space or choose another folder: "),
+            "cannot write '" + target.native() + "'; free some space or choose another folder: "),
         ENOSPC);
-    EXPECT_EQ(content(target_), "old");
-    EXPECT_THAT(names_in(folder_), ElementsAre("picture.png"));
-    umount(folder_.c_str());
+    EXPECT_EQ(content(target), "old");
+    EXPECT_THAT(names_in(folder), ElementsAre("picture.png"));
+    umount(folder.c_str());
 }
 
 TEST_F(OutputFileTest, LeavesNothingWhenASignalEndsTheProcess) {
@@ -328,16 +328,16 @@ TEST_F(OutputFileTest, LeavesNothingWhenASignalEndsTheProcess) {
         EXPECT_EQ(
             outcome([&] {
                 remove_partial_files_on_signals();
-                OutputFile first(target_);
-                OutputFile second(folder_ / "second");
-                OutputFile committed(folder_ / "committed");
+                OutputFile first(target);
+                OutputFile second(folder / "second");
+                OutputFile committed(folder / "committed");
                 first.write(std::string(1'000'000, 'x'));
                 committed.commit();
                 raise(signal);
                 return 1;
             }),
             -signal);
-        EXPECT_THAT(names_in(folder_), ElementsAre("committed"));
+        EXPECT_THAT(names_in(folder), ElementsAre("committed"));
     }
 }
 
@@ -346,18 +346,18 @@ TEST_F(OutputFileTest, GoesOnWhenASignalIsIgnored) {
         outcome([&] {
             std::signal(SIGHUP, SIG_IGN);
             remove_partial_files_on_signals();
-            OutputFile file(target_);
+            OutputFile file(target);
             raise(SIGHUP);
             file.write("x");
             file.commit();
             return 0;
         }),
         0);
-    EXPECT_EQ(content(target_), "x");
+    EXPECT_EQ(content(target), "x");
 }
 
 TEST_F(OutputFileTest, IsNotRemovedByAChildProcess) {
-    OutputFile file(target_);
+    OutputFile file(target);
     EXPECT_EQ(
         outcome([] {
             remove_partial_files();
@@ -365,16 +365,17 @@ TEST_F(OutputFileTest, IsNotRemovedByAChildProcess) {
         }),
         0);
     file.commit();
-    EXPECT_TRUE(fs::exists(target_));
+    EXPECT_TRUE(fs::exists(target));
 }
 
 TEST_F(OutputFileTest, MayBeOneOfManyAtOnceFromManyThreads) {
     std::vector<std::thread> threads;
+    threads.reserve(8);
     for (int i = 0; i < 8; ++i)
         threads.emplace_back([this, i] {
             for (int round = 0; round < 20; ++round) {
-                OutputFile same(target_);
-                OutputFile own(folder_ / std::to_string(i));
+                OutputFile same(target);
+                OutputFile own(folder / std::to_string(i));
                 same.write(std::string(1000, static_cast<char>('a' + i)));
                 own.write("x");
                 own.commit();
@@ -384,8 +385,8 @@ TEST_F(OutputFileTest, MayBeOneOfManyAtOnceFromManyThreads) {
         });
     for (std::thread& thread : threads)
         thread.join();
-    EXPECT_EQ(names_in(folder_).size(), 9U);
-    const std::string text = content(target_);
+    EXPECT_EQ(names_in(folder).size(), 9U);
+    const std::string text = content(target);
     EXPECT_EQ(text, std::string(1000, text.empty() ? '?' : text[0]));
 }
 

@@ -33,7 +33,7 @@ public:
             const double center = 1 + (static_cast<double>(i) + 0.5) / cells;
             inverse_centers_[i] = 1 / center;
             for (std::size_t j = 0; j < exponents; ++j) {
-                const double scale = std::bit_cast<double>((first_exponent + j) << 52);
+                const auto scale = std::bit_cast<double>((first_exponent + j) << 52);
                 powers_[j][i] = power(scale * center, 2.4);
             }
         }
@@ -50,7 +50,7 @@ public:
         // base = scale * center * (1 + u) with |u| <= 1/64; then base^2.4 is the power from the
         // table times the binomial series of (1 + u)^2.4. Its first term left out is below 1e-15.
         const std::size_t cell = (bits >> (52 - cell_bits)) & (cells - 1);
-        const double mantissa =
+        const auto mantissa =
             std::bit_cast<double>((bits & ((one << 52) - 1)) | (std::uint64_t{1023} << 52));
         const double u = mantissa * inverse_centers_[cell] - 1;
         double sum = -0.0046592;

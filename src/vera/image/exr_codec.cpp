@@ -204,9 +204,8 @@ Imf::FrameBuffer frame_buffer(
         const std::uintptr_t address = reinterpret_cast<std::uintptr_t>(samples) + i * sample_bytes
             - static_cast<std::uintptr_t>(x) * pixel_bytes
             - static_cast<std::uintptr_t>(y) * row_bytes;
-        buffer.insert(
-            channels[i],
-            Imf::Slice(type, reinterpret_cast<char*>(address), pixel_bytes, row_bytes));
+        char* const base = reinterpret_cast<char*>(address); // NOLINT(performance-no-int-to-ptr)
+        buffer.insert(channels[i], Imf::Slice(type, base, pixel_bytes, row_bytes));
     }
     return buffer;
 }
@@ -214,7 +213,7 @@ Imf::FrameBuffer frame_buffer(
 /// The nearest number of 16 bits; what is too large for any becomes the largest, not infinite.
 half nearest_half(float value) {
     const auto largest = static_cast<float>(HALF_MAX);
-    return half(std::isfinite(value) ? std::clamp(value, -largest, largest) : value);
+    return std::isfinite(value) ? std::clamp(value, -largest, largest) : value;
 }
 
 void encode_pixels(

@@ -147,16 +147,16 @@ bool encode(
         jpeg.comp_info[i].v_samp_factor = 1;
     }
     jpeg_start_compress(&jpeg, TRUE);
-    for (std::size_t i = 0; i < comments.size(); ++i)
+    for (const std::string& comment : comments)
         jpeg_write_marker(
             &jpeg,
             JPEG_COM,
-            reinterpret_cast<const JOCTET*>(comments[i].data()),
-            static_cast<unsigned>(comments[i].size()));
+            reinterpret_cast<const JOCTET*>(comment.data()),
+            static_cast<unsigned>(comment.size()));
     const auto* samples = std::get_if<std::vector<std::uint8_t>>(&image.samples);
     while (jpeg.next_scanline < jpeg.image_height) {
         // libjpeg does not write to the row.
-        JSAMPROW row = const_cast<JSAMPROW>(samples->data() + 3 * image.width * jpeg.next_scanline);
+        auto* row = const_cast<JSAMPROW>(samples->data() + 3 * image.width * jpeg.next_scanline);
         jpeg_write_scanlines(&jpeg, &row, 1);
     }
     jpeg_finish_compress(&jpeg);

@@ -123,7 +123,8 @@ Sample stretched(unsigned value, unsigned largest, const std::string& name) {
     constexpr unsigned full = std::numeric_limits<Sample>::max();
     if (largest == full)
         return static_cast<Sample>(value);
-    return static_cast<Sample>((std::uint64_t{2} * value * full + largest) / (2 * largest));
+    return static_cast<Sample>(
+        (std::uint64_t{2} * value * full + largest) / (std::uint64_t{2} * largest));
 }
 
 } // namespace

@@ -22,11 +22,14 @@ std::size_t quantile_rank(std::size_t count) {
 std::vector<QueryRay>
 hitting_rays(const TracedScene& traced, const Camera& camera, RenderStatistics& statistics) {
     std::vector<QueryRay> rays(raster * raster);
-    for (std::size_t i = 0; i < rays.size(); ++i)
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const std::size_t column = i % raster;
+        const std::size_t row = i / raster;
         rays[i].ray = view_ray(
             camera,
-            (static_cast<double>(i % raster) + 0.5) / raster,
-            (static_cast<double>(i / raster) + 0.5) / raster);
+            (static_cast<double>(column) + 0.5) / raster,
+            (static_cast<double>(row) + 0.5) / raster);
+    }
 
     std::vector<Hit> hits(rays.size());
     GenerationTracer tracer(traced);

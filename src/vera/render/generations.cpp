@@ -141,7 +141,7 @@ void GenerationTracer::find_places(
             continue;
         }
         const SurfacePoint& surface = surface_of(i);
-        const std::size_t number = static_cast<std::size_t>(surface.material);
+        const auto number = static_cast<std::size_t>(surface.material);
         const Look& look = number < looks_.size() ? looks_[number] : looks_.back();
         level.places[count] = {hits[i].face, &look, static_cast<std::uint32_t>(i)};
         PlaceBlock& block = level.blocks[block_of(count)];

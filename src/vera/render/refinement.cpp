@@ -119,9 +119,10 @@ TileRefiner::Window TileRefiner::window(std::size_t pixel) const {
 
 QueryRay TileRefiner::center_ray(std::size_t center) const {
     const std::size_t stride = tile_.width + 2 * frame;
+    const std::size_t column = center % stride;
+    const std::size_t row = center / stride;
     return picture_.raster.ray(
-        static_cast<double>(tile_.x + center % stride) - frame,
-        static_cast<double>(tile_.y + center / stride) - frame);
+        static_cast<double>(tile_.x + column) - frame, static_cast<double>(tile_.y + row) - frame);
 }
 
 void TileRefiner::see_all_centers() {
@@ -262,12 +263,15 @@ void TileRefiner::refine_pending() {
         see_centers_around(jobs_);
 
         rays_.clear();
-        for (const Job& job : jobs_)
+        for (const Job& job : jobs_) {
+            const std::size_t x = tile_.x + job.pixel % tile_.width;
+            const std::size_t y = tile_.y + job.pixel / tile_.width;
             for (std::uint32_t sample = job.first_sample; sample < job.last_sample; ++sample)
                 rays_.push_back(picture_.raster.ray(
-                    static_cast<double>(tile_.x + job.pixel % tile_.width),
-                    static_cast<double>(tile_.y + job.pixel / tile_.width),
+                    static_cast<double>(x),
+                    static_cast<double>(y),
                     net_position(picture_pixel(job.pixel), sample)));
+        }
         trace_samples();
         tracer_.statistics.extra_view_rays += rays_.size();
 

@@ -61,7 +61,7 @@ RenderStatistics
 render_centers(const TracedScene& traced, const Raster& raster, Image& image, ProgressMeter& done) {
     const Tiling tiling = {raster.width, raster.height, tile_side};
     Workspaces<TileWork> workspaces([&] {
-        return std::unique_ptr<TileWork>(new TileWork{GenerationTracer(traced), {}, {}});
+        return std::make_unique<TileWork>(TileWork{GenerationTracer(traced), {}, {}});
     });
     parallel_ranges(tiling.count(), 1, [&](std::size_t first, std::size_t last) {
         workspaces.lend([&](TileWork& work) {

@@ -27,6 +27,11 @@ bool is_ordinary(const Vec3& point) {
     return is_ordinary(point.x) && is_ordinary(point.y) && is_ordinary(point.z);
 }
 
+/// A shear is at most 1.
+bool is_ordinary_shear(double shear) {
+    return shear == 0 || std::abs(shear) >= 0x1p-100;
+}
+
 /// What lies beyond the polygon counts to its first or last strip. Never falls where v rises, since
 /// no rounding does: a side touches the strips from that of one end to that of the other.
 std::uint32_t strip_at(const OutlineStrips& outline, double v) {
@@ -218,11 +223,9 @@ InclusionStatus inclusion_status(
     const double speed_size = std::abs(speed);
     const double size = outline.size + prepared.origin_size + std::abs(t) * direction_size;
     if (!is_ordinary(ray.origin) || !is_ordinary(direction_size) || !(size <= 0x1p202)
-        || !(speed_size >= 0x1p-30 * direction_size))
+        || !(speed_size >= 0x1p-30 * direction_size) || !is_ordinary_shear(prepared.shear_x)
+        || !is_ordinary_shear(prepared.shear_y))
         return InclusionStatus::uncertain;
-    for (const double shear : {prepared.shear_x, prepared.shear_y})
-        if (shear != 0 && !(std::abs(shear) >= 0x1p-100))
-            return InclusionStatus::uncertain;
 
     const double noise = 0x1p-46 * size;
     const double slant = (outline.deviation + noise) / speed_size;
