@@ -137,7 +137,7 @@ TEST_F(ReadScene, BoundsHowDeepAndHowOftenTextsAreIncluded) {
 
     // Each includes the next one twice: without a bound, 2^60 of the last.
     for (int i = 0; i < 60; ++i)
-        write(fmt::format("d{}", i), fmt::format("INCLUDE \"d{0}\" INCLUDE \"d{0}\"", i + 1));
+        write(fmt::format("d{}", i), fmt::format(R"(INCLUDE "d{0}" INCLUDE "d{0}")", i + 1));
     write("d60", "");
     EXPECT_THAT(said("d0"), HasSubstr("more than 10000 INCLUDE statements are followed"));
 }
@@ -235,7 +235,7 @@ TEST_F(ReadScene, TellsOfFilesThatCannotBeRead) {
 
 TEST_F(ReadScene, KeepsAMeshThatIsPlacedOftenOnce) {
     write("m.obj", tetrahedron);
-    write("a.vera", "CM c MESH \"m.obj\" MESH \"m.obj\" TR 1 0 0 MESH \"m.obj\" SC -2 MA c");
+    write("a.vera", R"(CM c MESH "m.obj" MESH "m.obj" TR 1 0 0 MESH "m.obj" SC -2 MA c)");
     EXPECT_EQ(said("a.vera"), "");
     const Scene scene = read_scene(path("a.vera")).scene;
     ASSERT_THAT(scene.geometry.items, SizeIs(3));

@@ -221,6 +221,7 @@ TEST(OutlineTable, HoldsOnlyPlanePolygonsOfManyCorners) {
     test::add_polygon(geometry, {{0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}});
     EXPECT_TRUE(outline_table(geometry).numbers.empty());
     std::vector<Vec3> corners;
+    corners.reserve(20);
     for (int i = 0; i < 20; ++i)
         corners.push_back({std::cos(0.3 * i), std::sin(0.3 * i), 0});
     test::add_polygon(geometry, corners);
