@@ -52,8 +52,9 @@ TracedScene traced_scene(
 class GenerationTracer {
 public:
     /// The rays of a generation that are worked on at a time. A longer one is taken in parts, each
-    /// followed to its last descendant before the next, so that memory grows with the depth alone.
-    static constexpr std::size_t generation_size = 1024;
+    /// followed to its last descendant before the next, so that memory grows with the depth alone
+    /// and stays in a processor's cache. Sizes from 256 to 2048 were compared.
+    static constexpr std::size_t generation_size = 256;
 
     explicit GenerationTracer(const TracedScene& traced);
 

@@ -253,12 +253,13 @@ void TileRefiner::refine_pending() {
         std::size_t ray_count = 0;
         for (; next < pending_.size() && ray_count < GenerationTracer::generation_size; ++next) {
             Pixel& pixel = pixels_[pending_[next]];
-            const std::uint32_t wanted = samples_wanted(pixel);
-            if (wanted <= pixel.samples)
+            const std::uint32_t wanted = std::max(samples_wanted(pixel), pixel.samples);
+            if (wanted == pixel.samples && pixel.wanted == pixel.reached)
                 continue;
             jobs_.push_back({pending_[next], pixel.samples, wanted, pixel.wanted});
             ray_count += wanted - pixel.samples;
             pixel.samples = wanted;
+            pixel.reached = pixel.wanted;
         }
         see_centers_around(jobs_);
 
@@ -378,8 +379,10 @@ void TileRefiner::look_along_side(
     crossings_.push_back({pixel, x, y, refinement});
     // The places lie on the side that the two pixels have in common, whose middle is halfway
     // between their centres.
-    const double own_x = static_cast<double>(tile_.x + pixel % tile_.width);
-    const double own_y = static_cast<double>(tile_.y + pixel / tile_.width);
+    const std::size_t column = tile_.x + pixel % tile_.width;
+    const std::size_t row = tile_.y + pixel / tile_.width;
+    const auto own_x = static_cast<double>(column);
+    const auto own_y = static_cast<double>(row);
     const double to_x = static_cast<double>(x) - own_x;
     const double to_y = static_cast<double>(y) - own_y;
     for (std::size_t i = 0; i < side_probes; ++i) {

@@ -77,6 +77,7 @@ private:
     /// A pixel of the tile, while it is worked on.
     struct Pixel {
         Refinement wanted = Refinement::center;
+        Refinement reached = Refinement::center;
         std::uint32_t samples = 0;
         Color sum;   ///< of the samples
         Color least; ///< of the centre's and the samples' colours, channel by channel

@@ -17,7 +17,7 @@ namespace vera {
 
 namespace {
 
-/// A tile is a generation of view rays: small enough that its buffers stay in the cache.
+/// A tile is a few generations of view rays.
 constexpr std::size_t tile_side = 32;
 
 /// What a thread needs for the tiles that it renders, one after another.
