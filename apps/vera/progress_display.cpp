@@ -2,6 +2,7 @@
 #include "progress_display.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include <fmt/format.h>
@@ -31,7 +32,7 @@ std::size_t terminal_width() {
 std::string duration_text(double seconds) {
     if (seconds < 9.95)
         return fmt::format("{:.1f} s", seconds);
-    const auto whole = static_cast<long long>(seconds + 0.5);
+    const auto whole = static_cast<long long>(std::round(seconds));
     if (whole < 60)
         return fmt::format("{} s", whole);
     if (whole < 3600)

@@ -147,7 +147,7 @@ TEST(Antialiasing, CostsLittleWhereNothingChanges) {
     maker.polygon({{-99, -99, 1}, {999, -99, 1}, {999, 999, 1}, {-99, 999, 1}});
     const RenderResult result = antialiased(maker, 128, 128);
     EXPECT_EQ(result.statistics.refined_pixels, 0U);
-    const double rays =
+    const auto rays =
         static_cast<double>(result.statistics.view_rays + result.statistics.probe_rays);
     EXPECT_LT(rays / (128 * 128), 2.5) << "with the seams between tiles";
 }
