@@ -10,6 +10,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <ostream>
 #include <random>
 #include <string>
 #include <vector>
@@ -32,6 +33,8 @@ using testing::RandomSceneSettings;
 struct IndexKind {
     std::string name;
     std::function<std::unique_ptr<RayIndex>(const Scene&, const Progress&, const CancelFlag*)> make;
+
+    friend void PrintTo(const IndexKind& kind, std::ostream* out) { *out << kind.name; }
 };
 
 class EveryIndex : public ::testing::TestWithParam<IndexKind> {
