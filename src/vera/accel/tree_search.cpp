@@ -355,10 +355,8 @@ HWY_INLINE LaneMask starting_on(const Frame& frame, std::uint32_t element) {
     const hn::RebindToUnsigned<Lanes> d;
     LaneMask starting = 0;
     for (std::size_t lane = 0; lane < packet_size; lane += hn::Lanes(d))
-        starting |= bits_of(
-                        d,
-                        hn::Eq(
-                            hn::LoadU(d, frame.start_element.data() + lane), hn::Set(d, element)))
+        starting |=
+            bits_of(d, hn::Eq(hn::LoadU(d, frame.start_element.data() + lane), hn::Set(d, element)))
             << lane;
     return starting;
 }
