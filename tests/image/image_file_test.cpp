@@ -42,12 +42,12 @@ class ImageFile : public testing::Test {
 protected:
     ImageFile() {
         std::string name = (fs::temp_directory_path() / "vera-image-XXXXXX").native();
-        folder_ = mkdtemp(name.data());
+        folder = mkdtemp(name.data());
     }
 
-    ~ImageFile() override { fs::remove_all(folder_); }
+    ~ImageFile() override { fs::remove_all(folder); }
 
-    fs::path folder_;
+    fs::path folder;
 };
 
 std::string content(const fs::path& path) {
@@ -79,7 +79,7 @@ Image sample_image(SampleType type, std::size_t width, std::size_t height) {
 }
 
 TEST_F(ImageFile, ComesBackAsItWasWrittenInEveryFormatWithoutLoss) {
-    const fs::path path = folder_ / "picture";
+    const fs::path path = folder / "picture";
     for (const ImageFileFormat format : all_formats) {
         if (format == ImageFileFormat::jpeg)
             continue;
@@ -99,8 +99,8 @@ TEST_F(ImageFile, ComesBackAlmostAsItWasWrittenFromJpeg) {
     auto& samples = std::get<std::vector<std::uint8_t>>(image.samples);
     for (std::size_t i = 0; i < samples.size(); ++i)
         samples[i] = static_cast<std::uint8_t>(5 * (i / 3 % 40) + 40 * (i % 3 == 1 ? 1 : 0));
-    write_image(image, folder_ / "a.jpg", ImageFileFormat::jpeg);
-    const Image read = read_image(folder_ / "a.jpg");
+    write_image(image, folder / "a.jpg", ImageFileFormat::jpeg);
+    const Image read = read_image(folder / "a.jpg");
     const auto& read_samples = std::get<std::vector<std::uint8_t>>(read.samples);
     ASSERT_EQ(read_samples.size(), samples.size());
     for (std::size_t i = 0; i < samples.size(); ++i)
@@ -110,38 +110,38 @@ TEST_F(ImageFile, ComesBackAlmostAsItWasWrittenFromJpeg) {
 TEST_F(ImageFile, HasTheSameBytesEachTime) {
     for (const ImageFileFormat format : all_formats) {
         const Image image = sample_image(sample_type(format), 64, 40);
-        write_image(image, folder_ / "a", format, {{"Title", "x"}});
-        write_image(image, folder_ / "b", format, {{"Title", "x"}});
-        EXPECT_EQ(content(folder_ / "a"), content(folder_ / "b")) << static_cast<int>(format);
+        write_image(image, folder / "a", format, {{"Title", "x"}});
+        write_image(image, folder / "b", format, {{"Title", "x"}});
+        EXPECT_EQ(content(folder / "a"), content(folder / "b")) << static_cast<int>(format);
     }
 }
 
 TEST_F(ImageFile, LeavesNothingButThePicture) {
     for (const ImageFileFormat format : all_formats)
-        write_image(sample_image(sample_type(format), 5, 5), folder_ / "picture", format);
-    EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1);
+        write_image(sample_image(sample_type(format), 5, 5), folder / "picture", format);
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 1);
 }
 
 TEST_F(ImageFile, IsAPpmByteForByte) {
     Image image = {2, 1, std::vector<std::uint8_t>{1, 2, 3, 254, 255, 0}};
-    write_image(image, folder_ / "a.ppm", ImageFileFormat::ppm8, {{"Software", "vera 1\nx"}});
+    write_image(image, folder / "a.ppm", ImageFileFormat::ppm8, {{"Software", "vera 1\nx"}});
     EXPECT_EQ(
-        content(folder_ / "a.ppm"),
+        content(folder / "a.ppm"),
         "P6\n# Software: vera 1\n# x\n2 1\n255\n\x01\x02\x03\xfe\xff\x00"s);
 
     image.samples = std::vector<std::uint16_t>{1, 256, 65535, 0, 0x1234, 7};
-    write_image(image, folder_ / "b.ppm", ImageFileFormat::ppm16);
+    write_image(image, folder / "b.ppm", ImageFileFormat::ppm16);
     EXPECT_EQ(
-        content(folder_ / "b.ppm"),
+        content(folder / "b.ppm"),
         "P6\n2 1\n65535\n\x00\x01\x01\x00\xff\xff\x00\x00\x12\x34\x00\x07"s);
 }
 
 TEST_F(ImageFile, IsAPfmFromTheBottomUp) {
     const Image image = {1, 2, std::vector<float>{0, 0, 0, 1, 1, 1}};
-    write_image(image, folder_ / "a.pfm", ImageFileFormat::pfm);
+    write_image(image, folder / "a.pfm", ImageFileFormat::pfm);
     const std::string one = "\x00\x00\x80\x3f"s;
     EXPECT_EQ(
-        content(folder_ / "a.pfm"), "PF\n1 2\n-1.0\n" + one + one + one + std::string(12, '\0'));
+        content(folder / "a.pfm"), "PF\n1 2\n-1.0\n" + one + one + one + std::string(12, '\0'));
 }
 
 TEST_F(ImageFile, ComesBackFromPngAtEveryCompressionWhateverItsRowsAreLike) {
@@ -158,20 +158,20 @@ TEST_F(ImageFile, ComesBackFromPngAtEveryCompressionWhateverItsRowsAreLike) {
                                                              : values[random() % 8];
         const ImageWriteSettings settings = {.png_compression = round % 10};
         const Image image = {width, height, samples};
-        write_image(image, folder_ / "a.png", ImageFileFormat::png16, {}, settings);
-        EXPECT_EQ(read_image(folder_ / "a.png").samples, image.samples) << "round " << round;
+        write_image(image, folder / "a.png", ImageFileFormat::png16, {}, settings);
+        EXPECT_EQ(read_image(folder / "a.png").samples, image.samples) << "round " << round;
 
         const Image small = {
             width, height, std::vector<std::uint8_t>(samples.begin(), samples.end())};
-        write_image(small, folder_ / "a.png", ImageFileFormat::png8, {}, settings);
-        EXPECT_EQ(read_image(folder_ / "a.png").samples, small.samples) << "round " << round;
+        write_image(small, folder / "a.png", ImageFileFormat::png8, {}, settings);
+        EXPECT_EQ(read_image(folder / "a.png").samples, small.samples) << "round " << round;
     }
 }
 
 TEST_F(ImageFile, HasTheHighByteFirstInPng) {
     const Image image = {1, 1, std::vector<std::uint16_t>{0x1234, 7, 0xfffe}};
-    write_image(image, folder_ / "a.png", ImageFileFormat::png16, {}, {.png_compression = 0});
-    EXPECT_THAT(content(folder_ / "a.png"), HasSubstr("\x12\x34\x00\x07\xff\xfe"s));
+    write_image(image, folder / "a.png", ImageFileFormat::png16, {}, {.png_compression = 0});
+    EXPECT_THAT(content(folder / "a.png"), HasSubstr("\x12\x34\x00\x07\xff\xfe"s));
 }
 
 TEST_F(ImageFile, CarriesItsMetadata) {
@@ -180,8 +180,8 @@ TEST_F(ImageFile, CarriesItsMetadata) {
     for (const ImageFileFormat format : all_formats) {
         if (format == ImageFileFormat::pfm)
             continue;
-        write_image(sample_image(sample_type(format), 9, 9), folder_ / "a", format, metadata);
-        const std::string bytes = content(folder_ / "a");
+        write_image(sample_image(sample_type(format), 9, 9), folder / "a", format, metadata);
+        const std::string bytes = content(folder / "a");
         for (const auto& [name, value] : metadata) {
             EXPECT_THAT(bytes, HasSubstr(name)) << static_cast<int>(format);
             EXPECT_THAT(bytes, HasSubstr(value)) << static_cast<int>(format);
@@ -198,24 +198,24 @@ TEST_F(ImageFile, TakesMetadataThatAFormatHasNoNameFor) {
         {"line\nbreak", std::string(200'000, 'v')}};
     for (const ImageFileFormat format : all_formats) {
         const Image image = sample_image(sample_type(format), 9, 9);
-        write_image(image, folder_ / "a", format, metadata);
-        EXPECT_EQ(read_image(folder_ / "a").width, 9U) << static_cast<int>(format);
+        write_image(image, folder / "a", format, metadata);
+        EXPECT_EQ(read_image(folder / "a").width, 9U) << static_cast<int>(format);
     }
 }
 
 TEST_F(ImageFile, DeclaresSrgbInPngAndItsPrimariesInExr) {
-    write_image(sample_image(SampleType::integer8, 2, 2), folder_ / "a", ImageFileFormat::png8);
-    EXPECT_THAT(content(folder_ / "a"), HasSubstr("sRGB"));
-    EXPECT_THAT(content(folder_ / "a"), HasSubstr("gAMA"));
-    EXPECT_THAT(content(folder_ / "a"), testing::Not(HasSubstr("tIME")));
-    write_image(sample_image(SampleType::float32, 2, 2), folder_ / "b", ImageFileFormat::exr_half);
-    EXPECT_THAT(content(folder_ / "b"), HasSubstr("chromaticities"));
+    write_image(sample_image(SampleType::integer8, 2, 2), folder / "a", ImageFileFormat::png8);
+    EXPECT_THAT(content(folder / "a"), HasSubstr("sRGB"));
+    EXPECT_THAT(content(folder / "a"), HasSubstr("gAMA"));
+    EXPECT_THAT(content(folder / "a"), testing::Not(HasSubstr("tIME")));
+    write_image(sample_image(SampleType::float32, 2, 2), folder / "b", ImageFileFormat::exr_half);
+    EXPECT_THAT(content(folder / "b"), HasSubstr("chromaticities"));
 }
 
 TEST_F(ImageFile, LimitsHalvesToTheLargest) {
     const Image image = {2, 1, std::vector<float>{1e9F, -1e9F, 65504, 65519, 0.1F, 0}};
-    write_image(image, folder_ / "a.exr", ImageFileFormat::exr_half);
-    const Image read = read_image(folder_ / "a.exr");
+    write_image(image, folder / "a.exr", ImageFileFormat::exr_half);
+    const Image read = read_image(folder / "a.exr");
     EXPECT_THAT(
         std::get<std::vector<float>>(read.samples),
         testing::ElementsAre(65504, -65504, 65504, 65504, 0.0999755859375F, 0));
@@ -224,18 +224,18 @@ TEST_F(ImageFile, LimitsHalvesToTheLargest) {
 TEST_F(ImageFile, GoesToAPipeAsToAFile) {
     for (const ImageFileFormat format : all_formats) {
         const Image image = sample_image(sample_type(format), 31, 40);
-        write_image(image, folder_ / "file", format);
-        ASSERT_EQ(mkfifo((folder_ / "pipe").c_str(), 0600), 0);
-        const std::string command = "cat " + (folder_ / "pipe").native() + " > "
-            + (folder_ / "copy").native() + " & echo $!";
+        write_image(image, folder / "file", format);
+        ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+        const std::string command = "cat " + (folder / "pipe").native() + " > "
+            + (folder / "copy").native() + " & echo $!";
         std::FILE* shell = popen(command.c_str(), "r");
-        write_image(image, folder_ / "pipe", format);
+        write_image(image, folder / "pipe", format);
         pclose(shell);
         // The reader may still be writing what it has read.
-        for (int i = 0; i < 500 && content(folder_ / "copy") != content(folder_ / "file"); ++i)
+        for (int i = 0; i < 500 && content(folder / "copy") != content(folder / "file"); ++i)
             usleep(10'000);
-        EXPECT_EQ(content(folder_ / "copy"), content(folder_ / "file")) << static_cast<int>(format);
-        fs::remove(folder_ / "pipe");
+        EXPECT_EQ(content(folder / "copy"), content(folder / "file")) << static_cast<int>(format);
+        fs::remove(folder / "pipe");
     }
 }
 
@@ -259,9 +259,9 @@ TEST_F(ImageFile, LeavesNothingWhenItGrowsBeyondALimit) {
             const rlimit limit = {10'000, 10'000};
             setrlimit(RLIMIT_FSIZE, &limit);
             try {
-                write_image(image, folder_ / "a", format);
+                write_image(image, folder / "a", format);
             } catch (const std::system_error& error) {
-                const std::string start = "cannot write '" + (folder_ / "a").native() + "'; raise";
+                const std::string start = "cannot write '" + (folder / "a").native() + "'; raise";
                 _exit(std::string(error.what()).starts_with(start) ? error.code().value() : 98);
             } catch (...) {
                 _exit(97);
@@ -271,26 +271,26 @@ TEST_F(ImageFile, LeavesNothingWhenItGrowsBeyondALimit) {
         int status = 0;
         waitpid(child, &status, 0);
         EXPECT_EQ(WEXITSTATUS(status), EFBIG) << static_cast<int>(format);
-        EXPECT_TRUE(fs::is_empty(folder_));
+        EXPECT_TRUE(fs::is_empty(folder));
     }
 }
 
 TEST_F(ImageFile, TooWideForJpegIsRefusedWithAnAlternative) {
     const Image image = blank_image(65501, 1, SampleType::integer8);
     try {
-        write_image(image, folder_ / "a.jpg", ImageFileFormat::jpeg);
+        write_image(image, folder / "a.jpg", ImageFileFormat::jpeg);
         FAIL();
     } catch (const std::runtime_error& error) {
         EXPECT_THAT(error.what(), HasSubstr("at most 65500 pixels a side; choose PNG or EXR"));
     }
-    EXPECT_TRUE(fs::is_empty(folder_));
+    EXPECT_TRUE(fs::is_empty(folder));
 }
 
 TEST_F(ImageFile, CutShortIsAnErrorWhereverItIsCut) {
     for (const ImageFileFormat format : all_formats) {
         const std::string name = "cut " + std::to_string(static_cast<int>(format));
-        write_image(sample_image(sample_type(format), 20, 20), folder_ / "a", format);
-        const std::string whole = content(folder_ / "a");
+        write_image(sample_image(sample_type(format), 20, 20), folder / "a", format);
+        const std::string whole = content(folder / "a");
         // A JPEG may do without its last marker, and all EXR pixels come before its end.
         for (std::size_t size = 0; size + 2 < whole.size(); size += 1 + whole.size() / 200)
             try {
@@ -309,8 +309,8 @@ TEST_F(ImageFile, CutShortIsAnErrorWhereverItIsCut) {
 TEST_F(ImageFile, DamagedAnywhereGivesAPictureOrAnErrorAndNothingElse) {
     std::mt19937 random(3);
     for (const ImageFileFormat format : all_formats) {
-        write_image(sample_image(sample_type(format), 20, 20), folder_ / "a", format);
-        const std::string whole = content(folder_ / "a");
+        write_image(sample_image(sample_type(format), 20, 20), folder / "a", format);
+        const std::string whole = content(folder / "a");
         for (int round = 0; round < 100; ++round) {
             std::string damaged = whole;
             for (int i = 0; i <= round % 3; ++i)
@@ -352,14 +352,14 @@ TEST(DecodedImage, NamesWhatItCannotRead) {
 
 TEST_F(ImageFile, MayBeLargeAndOfOneColor) {
     for (const ImageFileFormat format : all_formats) {
-        write_image(blank_image(1000, 800, sample_type(format)), folder_ / "a", format);
-        EXPECT_EQ(read_image(folder_ / "a").height, 800U) << static_cast<int>(format);
+        write_image(blank_image(1000, 800, sample_type(format)), folder / "a", format);
+        EXPECT_EQ(read_image(folder / "a").height, 800U) << static_cast<int>(format);
     }
 }
 
 TEST_F(ImageFile, ThatPromisesMorePixelsThanItCanHoldIsRefusedBeforeTheyTakeMemory) {
-    write_image(blank_image(5, 5, SampleType::integer8), folder_ / "a", ImageFileFormat::jpeg);
-    std::string bytes = content(folder_ / "a");
+    write_image(blank_image(5, 5, SampleType::integer8), folder / "a", ImageFileFormat::jpeg);
+    std::string bytes = content(folder / "a");
     const std::size_t frame = bytes.find("\xff\xc0\x00\x11\x08"s);
     ASSERT_NE(frame, std::string::npos);
     bytes.replace(frame + 5, 4, "\xff\x00\xff\x00"s);
@@ -371,8 +371,8 @@ TEST_F(ImageFile, ThatPromisesMorePixelsThanItCanHoldIsRefusedBeforeTheyTakeMemo
             error.what(), HasSubstr("cannot hold the 65280 x 65280 pixels that its header"));
     }
 
-    write_image(blank_image(5, 5, SampleType::float32), folder_ / "a", ImageFileFormat::exr_half);
-    bytes = content(folder_ / "a");
+    write_image(blank_image(5, 5, SampleType::float32), folder / "a", ImageFileFormat::exr_half);
+    bytes = content(folder / "a");
     const std::size_t window = bytes.find("dataWindow\0box2i\0\x10\0\0\0"s);
     ASSERT_NE(window, std::string::npos);
     bytes.replace(window + 21 + 8, 4, "\xff\xff\x03\x00"s); // the last column
