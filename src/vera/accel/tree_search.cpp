@@ -130,7 +130,7 @@ element_number(const GeometryTree& tree, const TreeChild& child, std::size_t i) 
 
 /// The elements of a block of which a test says yes for one ray.
 template <typename Test>
-HWY_INLINE std::uint32_t test_elements(
+std::uint32_t test_elements(
     const GeometryTree& tree,
     const TreeChild& child,
     const Frame& frame,
@@ -177,8 +177,9 @@ void visit_block_alone(PacketQuery& query, Frame& frame, const TreeChild& child,
             starts |= std::uint32_t{1} << i;
     if ((met & starts) != 0)
         met &= ~(starts & test_elements(tree, child, frame, lane, SurelyLeaves()));
-    if (query.purpose == Purpose::any
-        && (met & ~starts & test_elements(tree, child, frame, lane, SurelyMeets())) != 0)
+    const std::uint32_t doubtful = met & ~starts;
+    if (query.purpose == Purpose::any && doubtful != 0
+        && (doubtful & test_elements(tree, child, frame, lane, SurelyMeets())) != 0)
         return block(query, frame, lanes);
     for (; met != 0; met &= met - 1) {
         const auto i = static_cast<std::size_t>(std::countr_zero(met));
@@ -318,7 +319,7 @@ HWY_INLINE LaneMask meeting_child(
 
 /// The lanes of a packet for which a test says yes of element i of a block.
 template <typename Test>
-HWY_INLINE LaneMask test_lanes(
+LaneMask test_lanes(
     const GeometryTree& tree,
     const TreeChild& child,
     std::size_t i,
@@ -374,9 +375,9 @@ void visit_block(PacketQuery& query, Frame& frame, const TreeChild& child, LaneM
         const LaneMask starting = starting_on(frame, element);
         if ((met & starting) != 0)
             met &= ~(starting & test_lanes(tree, child, i, frame, SurelyLeaves()));
-        if (query.purpose == Purpose::any) {
-            const LaneMask blocked =
-                met & ~starting & test_lanes(tree, child, i, frame, SurelyMeets());
+        const LaneMask doubtful = met & ~starting;
+        if (query.purpose == Purpose::any && doubtful != 0) {
+            const LaneMask blocked = doubtful & test_lanes(tree, child, i, frame, SurelyMeets());
             block(query, frame, blocked);
             met &= ~blocked;
         }
