@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "command.h"
+#include "option_values.h"
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
@@ -40,20 +41,6 @@ bool switch_of(const char* option, const std::string& text) {
     if (text == "off")
         return false;
     throw CommandLineError(fmt::format("{} takes on or off; found '{}'", option, text));
-}
-
-std::uint32_t whole_of(const char* option, double value, std::uint32_t least, std::uint32_t most) {
-    if (!(value >= least && value <= most) || value != std::floor(value))
-        throw CommandLineError(fmt::format(
-            "{} takes a whole number from {} to {}; found {}", option, least, most, value));
-    return static_cast<std::uint32_t>(value);
-}
-
-double number_of(const char* option, double value, double least, double most) {
-    if (!(value >= least && value <= most))
-        throw CommandLineError(
-            fmt::format("{} takes a number from {} to {}; found {}", option, least, most, value));
-    return value;
 }
 
 double margin_of(double margin) {

@@ -11,6 +11,7 @@
 
 #include "command.h"
 #include "messages.h"
+#include "option_values.h"
 #include "prepared_scene.h"
 #include "progress_display.h"
 #include "scene_index.h"
@@ -22,13 +23,15 @@ namespace vera {
 
 namespace {
 
+constexpr std::uint32_t most_threads = 1024;
+
 struct Request {
     SceneRequest scene;
     IndexRequest index;
     std::string output;
     std::string format;
     double jpeg_quality = 95;
-    std::size_t threads = 0;
+    double threads = 0;
     bool json = false;
 };
 
@@ -199,9 +202,8 @@ void print_exposure(const Exposure& exposure, const Console& console) {
 
 void render(const Request& request, const Console& console) {
     const ImageFileFormat format = output_format(request);
-    if (!(request.jpeg_quality >= 1 && request.jpeg_quality <= 100))
-        throw CommandLineError("--quality takes a number from 1 to 100");
-    const ThreadLimit limit(request.threads);
+    const double jpeg_quality = number_of("--quality", request.jpeg_quality, 1, 100);
+    const ThreadLimit limit(whole_of("--threads", request.threads, 0, most_threads));
     Report report;
     Stopwatch watch;
 
@@ -239,11 +241,7 @@ void render(const Request& request, const Console& console) {
     report.render_seconds = watch.lap();
 
     write_image(
-        image,
-        file,
-        format,
-        metadata(prepared),
-        {.jpeg_quality = static_cast<int>(request.jpeg_quality)});
+        image, file, format, metadata(prepared), {.jpeg_quality = static_cast<int>(jpeg_quality)});
     file.commit();
     report.write_seconds = watch.lap();
 
