@@ -28,7 +28,7 @@ struct Console {
     bool quiet = false;
     ProgressStyle progress = ProgressStyle::automatic;
     ColorStyle color = ColorStyle::automatic;
-    CancelFlag cancel; ///< raised by Ctrl-C
+    CancelFlag cancel; ///< raised by Ctrl-C during cancellable work
 };
 
 /// The command line is wrong; what() is one line without the program's name.

@@ -4,6 +4,7 @@
 #include "vera/scene/bounds.h"
 
 #include "command.h"
+#include "interrupt.h"
 #include "messages.h"
 #include "prepared_scene.h"
 #include "progress_display.h"
@@ -174,6 +175,7 @@ void print_info(const Request& request, const Console& console) {
     const GridSettings settings;
     const IndexForecast bvh_forecast = wide_bvh_forecast(prepared.scene);
     const IndexForecast forecast = grid_forecast(prepared.scene, settings);
+    const CancellableWork work;
     const WideBvhStatistics bvh = make_wide_bvh(prepared.scene, {}, &console.cancel)->statistics();
     ProgressDisplay display(console, "index");
     const GridTreeStatistics grid =

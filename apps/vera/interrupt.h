@@ -1,12 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "vera/base/parallel.h"
+#include "command.h"
 
 namespace vera {
 
-/// Makes SIGINT (Ctrl-C), SIGTERM and SIGHUP raise the flag. A second one ends the process at once,
-/// with no partial file left. The flag must live to the end of the process.
-void raise_on_interrupt(CancelFlag& flag);
+/// Makes SIGINT (Ctrl-C), SIGTERM and SIGHUP end the process at once, with no partial file left.
+/// During cancellable work the first one raises the console's flag instead. The console must live
+/// to the end of the process.
+void stop_on_interrupt(Console& console);
+
+/// While it lives, work runs that looks at the console's flag and ends soon after it is raised.
+class CancellableWork {
+public:
+    CancellableWork();
+    ~CancellableWork();
+    CancellableWork(const CancellableWork&) = delete;
+    CancellableWork& operator=(const CancellableWork&) = delete;
+};
 
 } // namespace vera

@@ -38,7 +38,7 @@ ExitCode run(CLI::App& app, Console& console, int argc, char** argv) {
         vera::print_diagnostics(error.diagnostics(), console);
         return ExitCode::wrong_input;
     } catch (const vera::Cancelled&) {
-        vera::print_note("vera: interrupted; no picture was written", console);
+        vera::print_note("vera: interrupted", console);
         return ExitCode::interrupted;
     } catch (const std::bad_alloc&) {
         vera::print_error("out of memory; nothing was written", console);
@@ -53,7 +53,7 @@ ExitCode run(CLI::App& app, Console& console, int argc, char** argv) {
 
 int main(int argc, char** argv) {
     Console console;
-    vera::raise_on_interrupt(console.cancel);
+    vera::stop_on_interrupt(console);
 
     CLI::App app("VERA turns a scene file into a picture that can be trusted.", "vera");
     app.set_version_flag("--version", std::string("vera ") + vera::version);

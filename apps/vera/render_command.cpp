@@ -10,6 +10,7 @@
 #include <filesystem>
 
 #include "command.h"
+#include "interrupt.h"
 #include "messages.h"
 #include "option_values.h"
 #include "prepared_scene.h"
@@ -215,6 +216,7 @@ void render(const Request& request, const Console& console) {
 
     std::unique_ptr<RayIndex> index;
     {
+        const CancellableWork work;
         ProgressDisplay display(console, "index");
         index = scene_index(prepared.scene, request.index, display.callback(), console.cancel);
     }
@@ -223,6 +225,7 @@ void render(const Request& request, const Console& console) {
 
     Image image;
     {
+        const CancellableWork work;
         ProgressDisplay display(console, "render");
         RenderResult result = render_scene(
             prepared.scene,

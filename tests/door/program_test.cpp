@@ -49,5 +49,19 @@ TEST(Program, SaysWhatIsWrongWithACommandLine) {
     }
 }
 
+TEST(Program, StopsAtOnceWhenInterruptedWhileItReads) {
+    const ScratchFolder folder;
+    for (const char* arguments : {"check -", "info -", "render - -o a.png", "check pipe"}) {
+        const ProgramRun run = run_vera(
+            folder,
+            std::string(arguments)
+                + " <pipe & child=$!; sleep 2 >pipe & sleep 0.5; kill -INT $child; wait $child",
+            "rm -f pipe; mkfifo pipe;");
+        EXPECT_EQ(run.exit_code, 130) << arguments;
+        EXPECT_EQ(run.err, "vera: interrupted\n") << arguments;
+        EXPECT_EQ(folder.file_count(), 1U) << arguments;
+    }
+}
+
 } // namespace
 } // namespace vera
