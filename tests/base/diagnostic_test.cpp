@@ -37,6 +37,31 @@ TEST(Diagnostic, ShowsAVeryLongLineInPartAndNoControlCharacters) {
     EXPECT_EQ(text.find('\x1b'), std::string::npos);
 }
 
+TEST(Diagnostic, PutsTheCaretBelowTheWordAfterTextThatIsNotAscii) {
+    const Diagnostic diagnostic = {
+        .place = {"a", 1, 22}, .problem = "p", .line = "(* Schöne äöü *) blüht", .length = 6};
+    EXPECT_EQ(
+        to_text(diagnostic),
+        "a:1:22: error: p\n"
+        "    (* Schöne äöü *) blüht\n"
+        "                     ^~~~~\n");
+}
+
+TEST(Diagnostic, CutsNoCharacterOfALongLineInTwo) {
+    Diagnostic diagnostic = {.place = {"a", 1, 0}, .problem = "p"};
+    for (int i = 0; i < 200; ++i)
+        diagnostic.line += "€";
+    for (const std::uint64_t column : {301U, 302U, 303U}) {
+        diagnostic.place.column = column;
+        const std::string text = to_text(diagnostic);
+        const std::size_t begin = text.find("\n    ") + 5;
+        const std::string shown = text.substr(begin, text.find('\n', begin) - begin);
+        EXPECT_EQ(shown.substr(0, 3), "€") << column;
+        EXPECT_EQ(shown.substr(shown.size() - 3), "€") << column;
+        EXPECT_EQ(shown.size() % 3, 0U) << column;
+    }
+}
+
 TEST(InputError, SaysTheFirstErrorAndKeepsAll) {
     const InputError error(
         {{.severity = Severity::warning, .place = {"a", 1, 1}, .problem = "w"},
