@@ -97,7 +97,7 @@ void ProgressDisplay::show_json(double done, double elapsed_seconds) const {
         part > 0 ? fmt::format("{:.2f}", elapsed_seconds * (1 - part) / part) : "null";
     fmt::print(
         stderr,
-        R"({{"stage": "{}", "done": {:.4f}, "elapsed_seconds": {:.2f}, "seconds_left": {}}})"
+        R"({{"version": 1, "stage": "{}", "done": {:.4f}, "elapsed_seconds": {:.2f}, "seconds_left": {}}})"
         "\n",
         stage_,
         part,

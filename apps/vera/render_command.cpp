@@ -155,12 +155,12 @@ nlohmann::ordered_json as_json(const Report& report) {
 std::string as_text(const Report& report, const std::string& output) {
     const RenderStatistics& counts = report.statistics;
     return fmt::format(
-        "{}: {} view rays, {} for antialiasing, {} shadow, {} mirrored, {} refracted; {} to read, "
-        "{} to "
-        "index, {} to render",
+        "{}: {} view rays ({} of them for antialiasing), {} probe, {} shadow, {} mirrored, {} "
+        "refracted; {} to read, {} to index, {} to render",
         output == "-" ? "standard output" : output,
         counts.view_rays,
-        counts.extra_view_rays + counts.probe_rays,
+        counts.extra_view_rays,
+        counts.probe_rays,
         counts.shadow_rays,
         counts.mirrored_rays,
         counts.refracted_rays,

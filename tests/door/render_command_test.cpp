@@ -155,9 +155,27 @@ TEST(RenderCommand, ReportsProgressAndStatisticsAsJson) {
     const ProgramRun run =
         run_vera(folder, "render a.vera --raster 64x64 -o a.png --progress json --json");
     ASSERT_EQ(run.exit_code, 0) << run.err;
-    EXPECT_NE(run.err.find("{\"stage\": \"render\", \"done\": 1.0000"), std::string::npos)
+    EXPECT_NE(
+        run.err.find("{\"version\": 1, \"stage\": \"render\", \"done\": 1.0000"), std::string::npos)
         << run.err;
     EXPECT_NE(run.out.find("\"view_rays\""), std::string::npos) << run.out;
+}
+
+TEST(RenderCommand, CountsTheRaysOfAntialiasingAmongTheViewRaysInItsSummary) {
+    const ScratchFolder folder;
+    folder.write("a.vera", small_scene);
+    const ProgramRun run = run_vera(folder, "render a.vera --raster 64x64 -o a.png");
+    unsigned view_rays = 0;
+    unsigned for_antialiasing = 0;
+    ASSERT_EQ(
+        std::sscanf(
+            run.err.c_str(),
+            "a.png: %u view rays (%u of them for antialiasing), ",
+            &view_rays,
+            &for_antialiasing),
+        2)
+        << run.err;
+    EXPECT_EQ(view_rays - for_antialiasing, 64U * 64U);
 }
 
 TEST(RenderCommand, LeavesNoFileWhenInterrupted) {
