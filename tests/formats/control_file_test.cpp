@@ -139,6 +139,15 @@ TEST(ControlFile, SaysWhatIsWrongAndReadsOn) {
         "value\n");
 }
 
+TEST(ControlFile, SaysWhereStatementsOfTheSceneBelong) {
+    EXPECT_EQ(
+        read_control("RASTER 5 5\nPROJECTION 0 2 8  -2 0 0  2 0 0  -2 4 0\nSHADOWS").said,
+        "test.ctl:2:1: error: expected a keyword of control files, found 'PROJECTION'\n"
+        "    PROJECTION 0 2 8  -2 0 0  2 0 0  -2 4 0\n"
+        "    ^~~~~~~~~~\n"
+        "  PROJECTION belongs in the scene\n");
+}
+
 TEST(ControlFile, BoundsItsExtensions) {
     EXPECT_EQ(
         read_control("FRAME 0.5").said,

@@ -100,6 +100,17 @@ const std::vector<Mistake>& mistakes() {
      "    SP 0 0 0 1 DRF 1 1 1\n"
      "               ^~~\n"
      "  DRF is a part of other statements\n"},
+    {"KeywordsOfControlFiles",
+     "RASTER 5 5 SHADOWS\n"
+            "SKY 1 1 1",
+     "test.vera:2:1: error: expected a statement, found 'RASTER'\n"
+     "    RASTER 5 5 SHADOWS\n"
+     "    ^~~~~~\n"
+     "  RASTER belongs in the control file (-c FILE)\n"
+     "test.vera:3:1: error: expected a statement, found 'SKY'\n"
+     "    SKY 1 1 1\n"
+     "    ^~~\n"
+     "  SKY belongs in the control file (-c FILE)\n"},
     {"AMisspeltProperty",
      "MA other DRF 1 1 1 DFR 1 1 1",
      "test.vera:2:20: error: expected a statement, found 'DFR'; did you mean 'DRF'?\n"

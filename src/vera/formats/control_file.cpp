@@ -2,13 +2,16 @@
 #include "vera/formats/control_file.h"
 
 #include "vera/formats/complaints.h"
+#include "vera/formats/control_words.h"
 #include "vera/formats/source_text.h"
+#include "vera/formats/vera_keywords.h"
 #include "vera/formats/word_reader.h"
 
 #include <algorithm>
 #include <array>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -16,6 +19,7 @@ namespace vera {
 
 namespace {
 
+/// In the order of control_words.
 enum class Keyword : std::uint8_t {
     raster,
     depth,
@@ -31,21 +35,6 @@ enum class Keyword : std::uint8_t {
     samples,
     tolerance
 };
-
-constexpr std::array<std::string_view, 13> control_words = {
-    "RASTER",
-    "RTDEPTH",
-    "EXPMES",
-    "AMBIENT",
-    "SKY",
-    "HORIZON",
-    "EARTH",
-    "SHADOWS",
-    "ANTI-ALIAS",
-    "FRAME",
-    "ASPECT",
-    "SAMPLES",
-    "TOLERANCE"};
 
 std::optional<Keyword> keyword_named(std::string_view word) {
     const auto found = std::find(control_words.begin(), control_words.end(), word);
@@ -95,13 +84,16 @@ private:
     }
 
     void complain_of_word(std::string_view word) {
-        const std::string similar = did_you_mean(word, control_words);
+        std::string similar;
+        std::string remedy;
+        if (statement_named(word))
+            remedy = fmt::format("{} belongs in the scene", word);
+        else if (similar = did_you_mean(word, control_words); similar.empty() && !complete_.empty())
+            remedy = fmt::format("the {} before it is complete", complete_);
         complaints_.error(
             words_.place(),
             fmt::format("expected a keyword of control files, found {}{}", shown(word), similar),
-            similar.empty() && !complete_.empty()
-                ? fmt::format("the {} before it is complete", complete_)
-                : "");
+            std::move(remedy));
         words_.take();
     }
 

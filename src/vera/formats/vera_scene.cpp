@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/formats/vera_scene.h"
 
+#include "vera/formats/control_words.h"
 #include "vera/formats/included_files.h"
 #include "vera/formats/scene_builder.h"
 #include "vera/formats/statement_count.h"
@@ -85,12 +86,13 @@ private:
     }
 
     /// Goes on to the next word that begins a statement, or at the beginning of a line is like one
-    /// that does: that is another mistake.
+    /// that does or belongs in a control file: that is another mistake.
     void skip_statement() {
         complete_ = {};
         words().take_until([this](std::string_view word) {
             return statement_named(word)
-                || (is_misspelt_statement(word) && words().at_line_start());
+                || ((is_misspelt_statement(word) || is_control_word(word))
+                    && words().at_line_start());
         });
     }
 
@@ -124,6 +126,8 @@ private:
         std::string remedy;
         if (std::find(scene_words.begin(), scene_words.end(), word) != scene_words.end())
             remedy = fmt::format("{} is a part of other statements", word);
+        else if (is_control_word(word))
+            remedy = fmt::format("{} belongs in the control file (-c FILE)", word);
         else if (similar = did_you_mean(word, candidates); similar.empty() && !complete_.empty())
             remedy = fmt::format("the {} before it is complete", complete_);
         complaints_.error(
