@@ -69,6 +69,26 @@ TEST_F(ReadScene, MakesASceneOfAMesh) {
     EXPECT_EQ(file.scene.files, std::vector<std::string>{path("a.obj").string()});
 }
 
+TEST_F(ReadScene, RefusesWhatReachesTooFarToBeComputedWith) {
+    const std::string camera = "PROJECTION 0 0 8 -1 -1 4 1 -1 4 -1 1 4\nMA m DRF 1 1 1 CM m\n";
+    const auto refused = [&](const std::string& name, const std::string& text) {
+        write("far.vera", camera + text);
+        return said("far.vera").find("this " + name + " reaches farther than 1e70 from the origin")
+            != std::string::npos;
+    };
+    EXPECT_TRUE(refused("sphere", "SP 1e308 0 0 1e308"));
+    EXPECT_TRUE(refused("sphere", "SP 1e71 0 0 1"));
+    EXPECT_FALSE(refused("sphere", "SP 1e69 0 0 1e69"));
+    EXPECT_TRUE(refused("triangle", "P3 0 0 0 1e71 0 0 0 1e71 0"));
+    EXPECT_TRUE(refused("polygon", "P4 0 0 0 1e308 0 0 1e308 1e308 0 0 1e308 0"));
+    EXPECT_TRUE(refused("rotational shape", "RK 1e308 0 0 P 1e308 1 0 AN 1e308 0 GE 1e308 1"));
+    EXPECT_TRUE(refused("subscene", "SSC a SC 1e10 SCENE a SP 1e65 0 0 1"));
+    EXPECT_TRUE(refused("subscene", "SSC a TR 1e300 0 0 SCENE a SP 0 0 0 1"));
+    EXPECT_FALSE(refused("subscene", "SSC a TR 1e60 0 0 SCENE a SCENE b SP 0 0 0 1"));
+    write("far.obj", "v 0 0 0\nv 1 0 0\nv 0 1e300 0\nf 1 2 3\n");
+    EXPECT_THAT(said("far.obj"), HasSubstr("this mesh reaches farther than 1e70"));
+}
+
 TEST_F(ReadScene, TakesTheFormatFromTheSettingsBeforeTheExtension) {
     write("a.txt", tetrahedron);
     EXPECT_THAT(said("a.txt"), HasSubstr("expected a statement, found 'v'"));

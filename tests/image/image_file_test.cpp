@@ -226,8 +226,8 @@ TEST_F(ImageFile, GoesToAPipeAsToAFile) {
         const Image image = sample_image(sample_type(format), 31, 40);
         write_image(image, folder / "file", format);
         ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
-        const std::string command = "cat " + (folder / "pipe").native() + " > "
-            + (folder / "copy").native() + " & echo $!";
+        const std::string command =
+            "cat " + (folder / "pipe").native() + " > " + (folder / "copy").native() + " & echo $!";
         std::FILE* shell = popen(command.c_str(), "r");
         write_image(image, folder / "pipe", format);
         pclose(shell);
@@ -382,6 +382,27 @@ TEST_F(ImageFile, ThatPromisesMorePixelsThanItCanHoldIsRefusedBeforeTheyTakeMemo
     } catch (const InputError& error) {
         EXPECT_THAT(error.what(), HasSubstr("cannot hold the 262144 x 5 pixels that its header"));
     }
+}
+
+TEST_F(ImageFile, RefusesAnExrThatPromisesMoreThanItHolds) {
+    write_image(blank_image(5, 5, SampleType::float32), folder / "a", ImageFileFormat::exr_half);
+    const std::string whole = content(folder / "a");
+    const std::string huge = "\xff\xff\xff\x7f"s;
+    const auto refused = [&](const std::string& name_and_type, std::size_t offset) {
+        std::string bytes = whole;
+        const std::size_t attribute = bytes.find(name_and_type);
+        EXPECT_NE(attribute, std::string::npos);
+        bytes.replace(attribute + name_and_type.size() + offset, 4, huge);
+        try {
+            decoded_image(as_bytes(bytes), "a.exr");
+        } catch (const InputError& error) {
+            return std::string(error.what()).find("it ends before what its header promises")
+                != std::string::npos;
+        }
+        return false;
+    };
+    EXPECT_TRUE(refused("channels\0chlist\0"s, 0)) << "its size";
+    EXPECT_TRUE(refused("dataWindow\0box2i\0"s, 4 + 12)) << "the last row";
 }
 
 TEST(DecodedImage, StretchesAPpmToItsWhite) {

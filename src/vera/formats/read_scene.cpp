@@ -69,6 +69,7 @@ SceneFile read_scene(const std::filesystem::path& path, const ReadSettings& sett
         : format == SceneFormat::nff             ? read_nff(text)
                                                  : mesh_scene(text, format);
     number_primitives(file.scene);
+    check_reach(file.scene);
     return file;
 }
 

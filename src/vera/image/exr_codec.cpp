@@ -11,7 +11,9 @@
 #include <exception>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <stdexcept>
+#include <string>
 #include <system_error>
 
 #include <ImfChannelList.h>
@@ -259,6 +261,96 @@ std::size_t side(int first, int last) {
     return static_cast<std::size_t>(std::int64_t{last} - first + 1);
 }
 
+/// Walks over the headers of an EXR file, as far as to tell whether OpenEXR may be let read them:
+/// it makes room for what they promise before it sees how long the file is.
+class ExrHeaders {
+public:
+    explicit ExrHeaders(std::span<const std::byte> bytes)
+        : rest_(bytes) {}
+
+    /// Whether every attribute ends within the file, and the tables of where its rows or tiles lie
+    /// could.
+    bool fit() {
+        constexpr std::size_t magic_and_version = 8;
+        return skip(magic_and_version) && attributes_fit() && tables_fit();
+    }
+
+private:
+    using Sides = std::array<std::int64_t, 2>;
+
+    bool attributes_fit() {
+        // Headers of several parts follow one another, and an empty one ends them.
+        while (true) {
+            const std::optional<std::string> name = text();
+            if (!name)
+                return false;
+            if (name->empty())
+                return true;
+            const std::optional<std::string> type = text();
+            if (!type || rest_.size() < 4)
+                return false;
+            const std::int32_t size = number_at(0);
+            skip(4);
+            if (size < 0 || static_cast<std::size_t>(size) > rest_.size())
+                return false;
+            if (*name == "dataWindow" && size >= 16)
+                window_ = {
+                    std::int64_t{number_at(8)} - number_at(0) + 1,
+                    std::int64_t{number_at(12)} - number_at(4) + 1};
+            if (*name == "tiles" && size >= 8)
+                tile_ = {number_at(0), number_at(4)};
+            skip(static_cast<std::size_t>(size));
+        }
+    }
+
+    bool tables_fit() const {
+        constexpr std::int64_t most_rows_of_a_block = 256;
+        constexpr std::size_t entry = 8;
+        const Sides block = tile_.value_or(Sides{window_[0], most_rows_of_a_block});
+        const auto most = static_cast<std::int64_t>(rest_.size() / entry) + 1;
+        std::int64_t blocks = 1;
+        for (std::size_t i = 0; i < 2; ++i) {
+            if (window_[i] <= 0 || block[i] <= 0)
+                return true; // OpenEXR complains
+            const std::int64_t along = (window_[i] - 1) / block[i] + 1;
+            if (along > most)
+                return false;
+            blocks *= along;
+        }
+        return blocks <= most;
+    }
+
+    bool skip(std::size_t count) {
+        if (count > rest_.size())
+            return false;
+        rest_ = rest_.subspan(count);
+        return true;
+    }
+
+    /// Up to a byte 0, which is skipped.
+    std::optional<std::string> text() {
+        const auto end = std::find(rest_.begin(), rest_.end(), std::byte{0});
+        if (end == rest_.end())
+            return std::nullopt;
+        const auto length = static_cast<std::size_t>(end - rest_.begin());
+        std::string result(length, '\0');
+        std::memcpy(result.data(), rest_.data(), length);
+        skip(length + 1);
+        return result;
+    }
+
+    std::int32_t number_at(std::size_t offset) const {
+        std::uint32_t bits = 0;
+        for (std::size_t i = 0; i < 4; ++i)
+            bits |= std::to_integer<std::uint32_t>(rest_[offset + i]) << (8 * i);
+        return static_cast<std::int32_t>(bits);
+    }
+
+    std::span<const std::byte> rest_;
+    Sides window_ = {1, 1};
+    std::optional<Sides> tile_;
+};
+
 /// How few bits stand for a pixel of three channels before they are deflated, or packed by less.
 std::size_t pixel_bits(const Imf::Header& header) {
     const Imf::Compression compression = header.compression();
@@ -288,6 +380,8 @@ void write_exr(
 }
 
 Image read_exr(std::span<const std::byte> bytes, const std::string& name) {
+    if (!ExrHeaders(bytes).fit())
+        throw_damaged(name, "it ends before what its header promises");
     ExrSource source(bytes, name);
     std::unique_ptr<Imf::InputFile> input;
     try {

@@ -81,25 +81,27 @@ Box3 bounds(const Geometry& geometry, Element element) {
     return {};
 }
 
+Box3 bounds(const Geometry& geometry, std::size_t number, const std::vector<Box3>& subscenes) {
+    const Item& item = geometry.items[number];
+    if (item.kind == ItemKind::subscene_call) {
+        const SubsceneCall& call = geometry.calls[item.index];
+        return transformed_box(call.to_parent, subscenes[static_cast<std::size_t>(call.subscene)]);
+    }
+    if (item.kind == ItemKind::mesh) {
+        // Not all positions: some may belong to no triangle.
+        const Mesh& mesh = geometry.meshes[item.index];
+        Box3 box;
+        for (const std::uint32_t corner : mesh.position_indices)
+            box = grown(box, mesh.positions[corner]);
+        return box;
+    }
+    return bounds(geometry, {static_cast<std::uint32_t>(number), 0});
+}
+
 Box3 bounds(const Geometry& geometry, const std::vector<Box3>& subscenes) {
     Box3 box;
-    for (std::size_t i = 0; i < geometry.items.size(); ++i) {
-        const Item& item = geometry.items[i];
-        if (item.kind == ItemKind::subscene_call) {
-            const SubsceneCall& call = geometry.calls[item.index];
-            box = united(
-                box,
-                transformed_box(
-                    call.to_parent, subscenes[static_cast<std::size_t>(call.subscene)]));
-        } else if (item.kind == ItemKind::mesh) {
-            // Not all positions: some may belong to no triangle.
-            const Mesh& mesh = geometry.meshes[item.index];
-            for (const std::uint32_t corner : mesh.position_indices)
-                box = grown(box, mesh.positions[corner]);
-        } else {
-            box = united(box, bounds(geometry, {static_cast<std::uint32_t>(i), 0}));
-        }
-    }
+    for (std::size_t i = 0; i < geometry.items.size(); ++i)
+        box = united(box, bounds(geometry, i, subscenes));
     return box;
 }
 

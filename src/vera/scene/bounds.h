@@ -18,6 +18,9 @@ Box3 bounds(const Geometry& geometry, Element element);
 /// Bounds of every subscene in its own coordinates, all that it calls included.
 std::vector<Box3> subscene_bounds(const Scene& scene);
 
+/// Bounds of item `number` of a geometry of the scene, given those of the subscenes.
+Box3 bounds(const Geometry& geometry, std::size_t number, const std::vector<Box3>& subscenes);
+
 /// Bounds of a geometry of the scene, given those of the subscenes.
 Box3 bounds(const Geometry& geometry, const std::vector<Box3>& subscenes);
 

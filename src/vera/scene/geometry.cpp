@@ -3,9 +3,11 @@
 
 #include "vera/base/check.h"
 #include "vera/base/diagnostic.h"
+#include "vera/scene/bounds.h"
 #include "vera/scene/scene.h"
 
 #include <algorithm>
+#include <string>
 
 namespace vera {
 
@@ -55,13 +57,33 @@ constexpr std::uint64_t most_primitives = std::uint64_t{1} << 62U;
 constexpr std::uint64_t most_elements = (std::uint64_t{1} << 32U) - 2;
 
 [[noreturn]] void
-refuse(const Scene& scene, const Item& item, const char* problem, const char* remedy) {
+refuse(const Scene& scene, const Item& item, const std::string& problem, const char* remedy) {
     Diagnostic diagnostic;
     if (item.file < scene.files.size())
         diagnostic.place = {scene.files[item.file], item.line, 1};
     diagnostic.problem = problem;
     diagnostic.remedy = remedy;
     throw InputError({diagnostic});
+}
+
+const char* name_of(ItemKind kind) {
+    switch (kind) {
+    case ItemKind::sphere:
+        return "sphere";
+    case ItemKind::triangle:
+        return "triangle";
+    case ItemKind::polygon:
+        return "polygon";
+    case ItemKind::patch:
+        return "patch";
+    case ItemKind::rotational_shape:
+        return "rotational shape";
+    case ItemKind::mesh:
+        return "mesh";
+    case ItemKind::subscene_call:
+        break;
+    }
+    return "subscene";
 }
 
 void number_geometry(const Scene& scene, Geometry& geometry) {
@@ -146,6 +168,31 @@ void number_primitives(Scene& scene) {
     for (const std::size_t i : callees_first(scene))
         number_geometry(scene, scene.subscenes[i]);
     number_geometry(scene, scene.geometry);
+}
+
+void check_reach(const Scene& scene) {
+    std::vector<Box3> subscenes(scene.subscenes.size());
+    const auto checked_bounds = [&](const Geometry& geometry) {
+        Box3 all;
+        for (std::size_t i = 0; i < geometry.items.size(); ++i) {
+            const Box3 box = bounds(geometry, i, subscenes);
+            const double reach = max_component(max(abs(box.lower), abs(box.upper)));
+            const bool holds_nothing = box.lower.x > box.upper.x;
+            // Also refuses what is not a number.
+            if (!holds_nothing && !(reach <= largest_reach))
+                refuse(
+                    scene,
+                    geometry.items[i],
+                    std::string("this ") + name_of(geometry.items[i].kind)
+                        + " reaches farther than 1e70 from the origin",
+                    "choose a larger unit of length, or bring it nearer");
+            all = united(all, box);
+        }
+        return all;
+    };
+    for (const std::size_t i : callees_first(scene))
+        subscenes[i] = checked_bounds(scene.subscenes[i]);
+    checked_bounds(scene.geometry);
 }
 
 } // namespace vera

@@ -33,4 +33,10 @@ std::vector<std::size_t> callees_first(const Scene& scene);
 /// primitives, or 2^32 - 1 or more elements in one geometry.
 void number_primitives(Scene& scene);
 
+/// How far from the origin geometry may reach: fourth powers of it are finite.
+constexpr double largest_reach = 1e70;
+
+/// Throws InputError when an item, of a subscene in its own coordinates, reaches farther.
+void check_reach(const Scene& scene);
+
 } // namespace vera
