@@ -11,7 +11,7 @@ namespace vera {
 struct RenderStatistics {
     std::uint64_t view_rays = 0;       ///< one a pixel, and those of anti-aliasing
     std::uint64_t extra_view_rays = 0; ///< those of the view rays that anti-aliasing added
-    std::uint64_t probe_rays = 0;      ///< of anti-aliasing: ask only what is hit; no view rays
+    std::uint64_t probe_rays = 0;      ///< ask only what is hit, and are no view rays
     std::uint64_t shadow_rays = 0;
     std::uint64_t mirrored_rays = 0; ///< total reflection included
     std::uint64_t refracted_rays = 0;
