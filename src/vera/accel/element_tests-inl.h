@@ -59,9 +59,20 @@ HWY_INLINE hn::Vec<D> sure_limit(D d, const TestedRays<D>& rays) {
     return hn::Sub(rays.limit, hn::Set(d, 16 * rays.slack));
 }
 
+// The places below are filled as they are made: GCC gives a constructor that it makes itself none
+// of the instructions of its place, and some vectors have constructors that then cannot be inlined.
+
+/// Where rays pass a center.
+template <typename V>
+struct CenterPlace {
+    V to_center[3];     ///< from the origin
+    V closest;          ///< t where they are nearest to it
+    V distance_squared; ///< there
+};
+
 template <typename D>
-HWY_INLINE hn::Mask<D>
-meets_ball(D d, const TestedRays<D>& rays, const hn::Vec<D>* center, hn::Vec<D> radius) {
+HWY_INLINE CenterPlace<hn::Vec<D>>
+center_place(const TestedRays<D>& rays, const hn::Vec<D>* center) {
     using V = hn::Vec<D>;
     const V to_center[3] = {
         hn::Sub(center[0], rays.origin[0]),
@@ -72,12 +83,19 @@ meets_ball(D d, const TestedRays<D>& rays, const hn::Vec<D>* center, hn::Vec<D> 
         hn::Sub(to_center[0], hn::Mul(closest, rays.direction[0])),
         hn::Sub(to_center[1], hn::Mul(closest, rays.direction[1])),
         hn::Sub(to_center[2], hn::Mul(closest, rays.direction[2]))};
-    const V distance_squared = dot3(offset, offset);
+    return {{to_center[0], to_center[1], to_center[2]}, closest, dot3(offset, offset)};
+}
+
+template <typename D>
+HWY_INLINE hn::Mask<D>
+meets_ball(D d, const TestedRays<D>& rays, const hn::Vec<D>* center, hn::Vec<D> radius) {
+    using V = hn::Vec<D>;
+    const auto place = center_place(rays, center);
     // The part of the ray from 0 to its limit comes as near as it does at the t nearest to closest.
     const V zero = hn::Zero(d);
-    const V t = hn::Max(zero, hn::Min(rays.limit, closest));
-    const V beyond = hn::Sub(closest, t);
-    const V sum = hn::Add(distance_squared, hn::Mul(beyond, beyond));
+    const V t = hn::Max(zero, hn::Min(rays.limit, place.closest));
+    const V beyond = hn::Sub(place.closest, t);
+    const V sum = hn::Add(place.distance_squared, hn::Mul(beyond, beyond));
     const V reach = hn::Mul(hn::Mul(radius, radius), hn::Set(d, up));
     return hn::And(hn::Le(sum, reach), hn::Ge(rays.limit, zero));
 }
@@ -87,28 +105,19 @@ template <typename D>
 HWY_INLINE hn::Mask<D>
 surely_meets_ball(D d, const TestedRays<D>& rays, const hn::Vec<D>* center, hn::Vec<D> radius) {
     using V = hn::Vec<D>;
-    const V to_center[3] = {
-        hn::Sub(center[0], rays.origin[0]),
-        hn::Sub(center[1], rays.origin[1]),
-        hn::Sub(center[2], rays.origin[2])};
-    const V closest = dot3(to_center, rays.direction);
-    const V offset[3] = {
-        hn::Sub(to_center[0], hn::Mul(closest, rays.direction[0])),
-        hn::Sub(to_center[1], hn::Mul(closest, rays.direction[1])),
-        hn::Sub(to_center[2], hn::Mul(closest, rays.direction[2]))};
-    const V distance_squared = dot3(offset, offset);
+    const auto place = center_place(rays, center);
     const V margin = hn::Set(d, 4 * rays.slack);
     const V inner = hn::Max(hn::Sub(radius, margin), hn::Zero(d));
     const V outer = hn::Add(radius, margin);
     const V inner_squared = hn::Mul(hn::Mul(inner, inner), hn::Set(d, 2 - up));
     const V outer_squared = hn::Mul(hn::Mul(outer, outer), hn::Set(d, up));
     const V end = sure_limit(d, rays);
-    const V t = hn::Max(hn::Zero(d), hn::Min(end, closest));
-    const V to_t = hn::Sub(closest, t);
-    const V to_end = hn::Sub(closest, end);
-    const V start_squared = dot3(to_center, to_center);
-    const V middle_squared = hn::Add(distance_squared, hn::Mul(to_t, to_t));
-    const V end_squared = hn::Add(distance_squared, hn::Mul(to_end, to_end));
+    const V t = hn::Max(hn::Zero(d), hn::Min(end, place.closest));
+    const V to_t = hn::Sub(place.closest, t);
+    const V to_end = hn::Sub(place.closest, end);
+    const V start_squared = dot3(place.to_center, place.to_center);
+    const V middle_squared = hn::Add(place.distance_squared, hn::Mul(to_t, to_t));
+    const V end_squared = hn::Add(place.distance_squared, hn::Mul(to_end, to_end));
     const auto ends_outside =
         hn::Or(hn::Gt(start_squared, outer_squared), hn::Gt(end_squared, outer_squared));
     return hn::And(
@@ -152,8 +161,6 @@ plane_place(D, const TestedRays<D>& rays, const hn::Vec<D>* values) {
     cross3(to_corner, rays.direction, moment);
     const V largest_e = hn::Max(hn::Abs(e[0]), hn::Max(hn::Abs(e[1]), hn::Abs(e[2])));
     const V largest_f = hn::Max(hn::Abs(f[0]), hn::Max(hn::Abs(f[1]), hn::Abs(f[2])));
-    // Filled as it is made: GCC gives a constructor that it makes itself none of the instructions
-    // of its place, and some vectors have constructors that then cannot be inlined.
     return {
         dot3(moment, f),
         hn::Neg(dot3(moment, e)),
@@ -247,6 +254,36 @@ HWY_INLINE hn::Mask<D> meets_box(D d, const TestedRays<D>& rays, const hn::Vec<D
     return hn::Le(near, hn::Add(far, slack));
 }
 
+/// How the lines of rays pass the axis of a cylinder, at a distance of apart / sine.
+template <typename V>
+struct AxisPlace {
+    V sine_squared; ///< of the angle between them
+    V apart;
+    V rise;             ///< along the axis for one unit of t
+    V height;           ///< of the center above the origin
+    V middle_by_square; ///< t where they are nearest to it, times sine_squared
+};
+
+template <typename D>
+HWY_INLINE AxisPlace<hn::Vec<D>> axis_place(const TestedRays<D>& rays, const hn::Vec<D>* values) {
+    using V = hn::Vec<D>;
+    const V to_center[3] = {
+        hn::Sub(values[0], rays.origin[0]),
+        hn::Sub(values[1], rays.origin[1]),
+        hn::Sub(values[2], rays.origin[2])};
+    const V axis_direction[3] = {values[3], values[4], values[5]};
+    V across[3];
+    cross3(rays.direction, axis_direction, across);
+    const V rise = dot3(rays.direction, axis_direction);
+    const V height = dot3(to_center, axis_direction);
+    return {
+        dot3(across, across),
+        hn::Abs(dot3(to_center, across)),
+        rise,
+        height,
+        hn::Sub(dot3(to_center, rays.direction), hn::Mul(height, rise))};
+}
+
 template <typename D>
 HWY_INLINE hn::Mask<D> meets_cylinder(D d, const TestedRays<D>& rays, const hn::Vec<D>* values) {
     using V = hn::Vec<D>;
@@ -256,39 +293,26 @@ HWY_INLINE hn::Mask<D> meets_cylinder(D d, const TestedRays<D>& rays, const hn::
     const V one_up = hn::Set(d, up);
     const V around = hn::Sqrt(hn::Add(hn::Mul(radius, radius), hn::Mul(half, half)));
     const auto round = meets_ball(d, rays, values, hn::Add(hn::Mul(around, one_up), slack));
-    // The distance of the ray's line from the axis is |to_center . across| / |across|, and |across|
-    // the sine of the angle between them.
-    const V to_center[3] = {
-        hn::Sub(values[0], rays.origin[0]),
-        hn::Sub(values[1], rays.origin[1]),
-        hn::Sub(values[2], rays.origin[2])};
-    const V axis_direction[3] = {values[3], values[4], values[5]};
-    V across[3];
-    cross3(rays.direction, axis_direction, across);
-    const V sine_squared = dot3(across, across);
-    const V sine = hn::Sqrt(sine_squared);
-    const V apart = hn::Abs(dot3(to_center, across));
+    const auto place = axis_place(rays, values);
+    const V sine = hn::Sqrt(place.sine_squared);
     const V reach =
         hn::Add(hn::Mul(sine, hn::Mul(hn::Add(radius, slack), one_up)), hn::Add(slack, slack));
-    const auto near_axis = hn::And(round, hn::Le(apart, reach));
+    const auto near_axis = hn::And(round, hn::Le(place.apart, reach));
 
     // Where the ray is within reach of the axis, from t = middle - chord to middle + chord, it must
     // be at the cylinder's heights as well. Of rays almost along the axis that is not asked: their
     // middle is badly known.
     const V steep = hn::Set(d, 0.05F);
-    const V per_square = hn::Div(hn::Set(d, 1), hn::Max(sine_squared, hn::Mul(steep, steep)));
-    const V rise = dot3(rays.direction, axis_direction);
-    const V height = dot3(to_center, axis_direction); // of the center above the origin
-    const V middle =
-        hn::Mul(hn::Sub(dot3(to_center, rays.direction), hn::Mul(height, rise)), per_square);
+    const V per_square = hn::Div(hn::Set(d, 1), hn::Max(place.sine_squared, hn::Mul(steep, steep)));
+    const V middle = hn::Mul(place.middle_by_square, per_square);
     const V chord_squared =
-        hn::Max(hn::Zero(d), hn::Sub(hn::Mul(reach, reach), hn::Mul(apart, apart)));
+        hn::Max(hn::Zero(d), hn::Sub(hn::Mul(reach, reach), hn::Mul(place.apart, place.apart)));
     // |middle| is at most a few units over the sine's square; its rounding is far below this.
     const V margin = hn::Mul(slack, hn::Mul(per_square, hn::Set(d, 4)));
     const V chord = hn::Add(hn::Mul(hn::Sqrt(chord_squared), per_square), margin);
-    const V middle_height = hn::Abs(hn::Sub(hn::Mul(middle, rise), height));
+    const V middle_height = hn::Abs(hn::Sub(hn::Mul(middle, place.rise), place.height));
     const V heights = hn::Add(
-        hn::Add(hn::Mul(half, one_up), hn::Add(slack, slack)), hn::Mul(chord, hn::Abs(rise)));
+        hn::Add(hn::Mul(half, one_up), hn::Add(slack, slack)), hn::Mul(chord, hn::Abs(place.rise)));
     const auto in_range = hn::And(
         hn::Ge(hn::Add(middle, chord), hn::Zero(d)), hn::Le(hn::Sub(middle, chord), rays.limit));
     const auto at_heights = hn::And(in_range, hn::Le(middle_height, heights));
@@ -301,40 +325,29 @@ template <typename D>
 HWY_INLINE hn::Mask<D>
 surely_meets_mantle(D d, const TestedRays<D>& rays, const hn::Vec<D>* values) {
     using V = hn::Vec<D>;
-    const V to_center[3] = {
-        hn::Sub(values[0], rays.origin[0]),
-        hn::Sub(values[1], rays.origin[1]),
-        hn::Sub(values[2], rays.origin[2])};
-    const V axis_direction[3] = {values[3], values[4], values[5]};
-    V across[3];
-    cross3(rays.direction, axis_direction, across);
-    const V sine_squared = dot3(across, across);
-    const V sine = hn::Sqrt(sine_squared);
-    const V apart = hn::Abs(dot3(to_center, across));
-    const V rise = dot3(rays.direction, axis_direction);
-    const V height = dot3(to_center, axis_direction); // of the center above the origin
-    const V per_square = hn::Div(hn::Set(d, 1), sine_squared);
-    const V middle =
-        hn::Mul(hn::Sub(dot3(to_center, rays.direction), hn::Mul(height, rise)), per_square);
+    const auto place = axis_place(rays, values);
+    const V sine = hn::Sqrt(place.sine_squared);
+    const V per_square = hn::Div(hn::Set(d, 1), place.sine_squared);
+    const V middle = hn::Mul(place.middle_by_square, per_square);
 
     // Half the length of the ray within the cylinder lies between these two.
     const V slack = hn::Set(d, rays.slack);
     const V margin = hn::Mul(hn::Set(d, 4), slack);
     const V inner = hn::Sub(hn::Mul(sine, hn::Sub(values[6], margin)), margin);
     const V outer = hn::Add(hn::Mul(sine, hn::Add(values[6], margin)), margin);
-    const V apart_squared = hn::Mul(apart, apart);
+    const V apart_squared = hn::Mul(place.apart, place.apart);
     const V shorter = hn::Mul(
         hn::Sqrt(hn::Max(hn::Zero(d), hn::Sub(hn::Mul(inner, inner), apart_squared))), per_square);
     const V longer = hn::Mul(
         hn::Sqrt(hn::Max(hn::Zero(d), hn::Sub(hn::Mul(outer, outer), apart_squared))), per_square);
     // |middle| is at most a few units over the sine's square, and so is its error.
     const V off = hn::Mul(hn::Mul(hn::Set(d, 16), slack), per_square);
-    const auto passes = hn::And(hn::Gt(inner, apart), hn::Gt(sine, hn::Set(d, 0.1F)));
+    const auto passes = hn::And(hn::Gt(inner, place.apart), hn::Gt(sine, hn::Set(d, 0.1F)));
 
     const V end = sure_limit(d, rays);
     const V heights = hn::Sub(hn::Sub(values[7], margin), off);
     const auto at_heights = [&](V t) {
-        return hn::Le(hn::Abs(hn::Sub(hn::Mul(t, rise), height)), heights);
+        return hn::Le(hn::Abs(hn::Sub(hn::Mul(t, place.rise), place.height)), heights);
     };
     const auto between = [&](V first, V last) {
         return hn::And(
@@ -400,13 +413,8 @@ template <typename D>
 HWY_INLINE hn::Mask<D>
 surely_leaves(D d, const TestedRays<D>& rays, ElementRecord::Kind kind, const hn::Vec<D>* values) {
     switch (kind) {
-    case ElementRecord::Kind::sphere: {
-        const hn::Vec<D> to_center[3] = {
-            hn::Sub(values[0], rays.origin[0]),
-            hn::Sub(values[1], rays.origin[1]),
-            hn::Sub(values[2], rays.origin[2])};
-        return hn::Lt(dot3(to_center, rays.direction), hn::Set(d, -4 * rays.slack));
-    }
+    case ElementRecord::Kind::sphere:
+        return hn::Lt(center_place(rays, values).closest, hn::Set(d, -4 * rays.slack));
     case ElementRecord::Kind::triangle:
     case ElementRecord::Kind::quadrangle:
         return hn::Not(none(d));

@@ -171,9 +171,8 @@ void number_primitives(Scene& scene) {
 }
 
 void check_reach(const Scene& scene) {
-    std::vector<Box3> subscenes(scene.subscenes.size());
-    const auto checked_bounds = [&](const Geometry& geometry) {
-        Box3 all;
+    const std::vector<Box3> subscenes = subscene_bounds(scene);
+    const auto check = [&](const Geometry& geometry) {
         for (std::size_t i = 0; i < geometry.items.size(); ++i) {
             const Box3 box = bounds(geometry, i, subscenes);
             const double reach = max_component(max(abs(box.lower), abs(box.upper)));
@@ -186,13 +185,12 @@ void check_reach(const Scene& scene) {
                     std::string("this ") + name_of(geometry.items[i].kind)
                         + " reaches farther than 1e70 from the origin",
                     "choose a larger unit of length, or bring it nearer");
-            all = united(all, box);
         }
-        return all;
     };
+    // What makes a call reach far is told before the call.
     for (const std::size_t i : callees_first(scene))
-        subscenes[i] = checked_bounds(scene.subscenes[i]);
-    checked_bounds(scene.geometry);
+        check(scene.subscenes[i]);
+    check(scene.geometry);
 }
 
 } // namespace vera
