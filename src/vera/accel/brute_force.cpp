@@ -46,7 +46,8 @@ private:
     }
 
     Hit nearest(const QueryRay& query, QueryCounts& counts) const {
-        detail::NearestSearch search(query.ray);
+        detail::NearestSearch search;
+        search.start(query.ray);
         search_all(query, counts, search);
         if (!search.undecided())
             return search.hit();

@@ -237,6 +237,48 @@ surely_meets_face(D d, const TestedRays<D>& rays, const FacePlace<hn::Vec<D>>& f
     return hn::And(met, hn::And(behind_start, before_limit));
 }
 
+/// Where rays meet an element, if they do: those that may, those that surely do, before which local
+/// distance they surely do not, and, for those that surely do, by which they have.
+template <typename D>
+struct Meeting {
+    hn::Mask<D> may;
+    hn::Mask<D> sure;
+    hn::Vec<D> near;
+    hn::Vec<D> far;
+};
+
+/// For rays that do not start on the face.
+template <typename D>
+HWY_INLINE Meeting<D>
+meeting_face(D d, const TestedRays<D>& rays, const FacePlace<hn::Vec<D>>& face) {
+    using V = hn::Vec<D>;
+    const PlanePlace<V>& place = face.plane;
+    const V slack = hn::Set(d, rays.slack);
+    const V size = hn::Abs(place.speed);
+    const V t_size = hn::Mul(place.depth, hn::CopySignToAbs(hn::Set(d, 1), place.speed));
+    const V deep = hn::Mul(hn::Mul(hn::Set(d, 8), slack), hn::Mul(place.largest, place.largest));
+    const V deeper = hn::Add(deep, deep);
+    const V near_size = hn::Sub(t_size, deep);
+    const V far_size = hn::Add(t_size, deeper);
+    const auto in_outline =
+        hn::Or(hn::Ge(face.lowest, hn::Neg(face.error)), hn::Le(face.highest, face.error));
+    const auto in_range = hn::And(
+        hn::Ge(hn::Add(t_size, deep), hn::Neg(hn::Mul(slack, size))),
+        hn::Le(near_size, hn::Mul(rays.limit, size)));
+    // The same with twice the margins, on the other side.
+    const V error = hn::Add(face.error, face.error);
+    const auto surely_in_outline =
+        hn::Or(hn::Gt(face.lowest, error), hn::Lt(face.highest, hn::Neg(error)));
+    const auto surely_in_range =
+        hn::And(hn::Gt(t_size, deeper), hn::Lt(far_size, hn::Mul(sure_limit(d, rays), size)));
+    const V per_size = hn::Div(hn::Set(d, 1), size);
+    return {
+        hn::And(in_outline, in_range),
+        hn::And(surely_in_outline, surely_in_range),
+        hn::Sub(hn::Mul(near_size, per_size), slack),
+        hn::Mul(far_size, per_size)};
+}
+
 template <typename D>
 HWY_INLINE hn::Mask<D> meets_box(D d, const TestedRays<D>& rays, const hn::Vec<D>* values) {
     using V = hn::Vec<D>;
@@ -425,6 +467,25 @@ surely_leaves(D d, const TestedRays<D>& rays, ElementRecord::Kind kind, const hn
         break;
     }
     return none(d);
+}
+
+/// May_meet() and surely_meets() at once, and between which distances.
+template <typename D>
+HWY_INLINE Meeting<D>
+meeting(D d, const TestedRays<D>& rays, ElementRecord::Kind kind, const hn::Vec<D>* values) {
+    switch (kind) {
+    case ElementRecord::Kind::triangle:
+        return meeting_face(d, rays, triangle_place(d, rays, values));
+    case ElementRecord::Kind::quadrangle:
+        return meeting_face(d, rays, quadrangle_place(d, rays, values));
+    default:
+        break;
+    }
+    return {
+        may_meet(d, rays, kind, values),
+        surely_meets(d, rays, kind, values),
+        hn::Zero(d),
+        rays.limit};
 }
 
 /// These tests as values.

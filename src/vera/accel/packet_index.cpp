@@ -51,9 +51,8 @@ void find_nearest(
     std::span<const QueryRay> rays,
     std::span<Hit> hits) {
     start(query, searched, rays, Purpose::nearest);
-    query.nearest.clear();
-    for (const QueryRay& ray : rays)
-        query.nearest.emplace_back(ray.ray);
+    for (std::size_t lane = 0; lane < rays.size(); ++lane)
+        query.nearest[lane].start(rays[lane].ray);
     searched.search(query);
     LaneMask undecided = 0;
     for (std::size_t lane = 0; lane < rays.size(); ++lane)

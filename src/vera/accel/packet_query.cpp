@@ -2,6 +2,8 @@
 #include "vera/accel/packet_query.h"
 
 #include "vera/accel/every_crossing.h"
+#include "vera/accel/exact_triangles.h"
+#include "vera/base/check.h"
 #include "vera/math/transform.h"
 
 #include <algorithm>
@@ -9,6 +11,8 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+
+#include <hwy/cache_control.h>
 
 namespace vera::detail {
 
@@ -62,6 +66,7 @@ void start_frame(
     PacketQuery& query, Frame& frame, const LocalGeometry& local, std::uint64_t first_primitive) {
     frame.local = &local;
     frame.prepared_lanes = 0;
+    frame.prepared_rows.made = false;
     frame.visit = query.mailbox.next_visit();
     frame.first_primitive = first_primitive;
 }
@@ -257,8 +262,120 @@ void test_exactly(PacketQuery& query, Frame& frame, std::uint32_t element, LaneM
             });
         if (changed) {
             ++query.changes;
-            frame.limit[lane] = limit_of(query, frame, lane);
+            frame.limit[lane] = std::min(frame.limit[lane], limit_of(query, frame, lane));
         }
+    }
+}
+
+namespace {
+
+/// Where the corners of a triangle stand.
+struct CornerPlaces {
+    const Vec3* corner[3];
+};
+
+CornerPlaces corner_places(const Geometry& geometry, std::uint32_t element) {
+    if (geometry.items.size() == 1 && geometry.meshes.size() == 1) {
+        const Mesh& mesh = geometry.meshes.front();
+        const Vec3* const positions = mesh.positions.data();
+        const std::uint32_t* const corners =
+            mesh.position_indices.data() + std::size_t{3} * element;
+        return {{positions + corners[0], positions + corners[1], positions + corners[2]}};
+    }
+    const Element place = element_at(geometry, element);
+    const Item& item = geometry.items[place.item];
+    if (item.kind == ItemKind::mesh) {
+        const Mesh& mesh = geometry.meshes[item.index];
+        const Vec3* const positions = mesh.positions.data();
+        const std::uint32_t* const corners =
+            mesh.position_indices.data() + std::size_t{3} * place.triangle;
+        return {{positions + corners[0], positions + corners[1], positions + corners[2]}};
+    }
+    VERA_CHECK(item.kind == ItemKind::triangle || item.kind == ItemKind::patch);
+    const Vec3* const first = item.kind == ItemKind::triangle
+        ? geometry.triangles[item.index].corners.data()
+        : geometry.patches[item.index].corners.data();
+    return {{first, first + 1, first + 2}};
+}
+
+/// Takes the crossings of lanes' rays with a triangle each.
+void decide_triangles(
+    PacketQuery& query,
+    Frame& frame,
+    LaneMask lanes,
+    const std::array<std::uint32_t, packet_size>& elements) {
+    const Geometry& geometry = *frame.local->geometry;
+    std::array<CornerPlaces, packet_size> places;
+    for (LaneMask rest = lanes; rest != 0; rest &= rest - 1) {
+        const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+        places[lane] = corner_places(geometry, elements[lane]);
+        for (const Vec3* corner : places[lane].corner)
+            hwy::Prefetch(corner);
+    }
+    if (!frame.prepared_rows.made) {
+        prepare_rays(frame);
+        frame.prepared_rows.made = true;
+    }
+    TriangleRows triangles;
+    for (LaneMask rest = lanes; rest != 0; rest &= rest - 1) {
+        const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            const Vec3& point = *places[lane].corner[corner];
+            triangles[corner][0][lane] = point.x;
+            triangles[corner][1][lane] = point.y;
+            triangles[corner][2][lane] = point.z;
+        }
+    }
+    RayRows::Row t;
+    const LaneMask met = cross_triangles(frame, lanes, triangles, t);
+    for (LaneMask rest = met; rest != 0; rest &= rest - 1) {
+        const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+        const std::uint32_t element = elements[lane];
+        std::uint64_t number = element;
+        MaterialId material = inherited_material;
+        if (!geometry.calls.empty() || query.purpose == Purpose::transmittance) {
+            const Element place = element_at(geometry, element);
+            number = primitive_number(geometry, place);
+            material = resolved(geometry.items[place.item].material, frame.material);
+        }
+        if (take_crossing(query, lane, t[lane], {frame.first_primitive + number, 0}, material)) {
+            ++query.changes;
+            frame.limit[lane] = std::min(frame.limit[lane], limit_of(query, frame, lane));
+        }
+    }
+}
+
+} // namespace
+
+void decide(PacketQuery& query, Frame& frame, LaneMask lanes) {
+    Candidates& candidates = frame.candidates;
+    std::array<std::uint8_t, packet_size> done = {};
+    while (lanes != 0) {
+        // The next candidate of each lane.
+        std::array<std::uint32_t, packet_size> elements;
+        LaneMask triangles = 0;
+        for (LaneMask rest = lanes; rest != 0; rest &= rest - 1) {
+            const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+            const LaneMask bit = LaneMask{1} << lane;
+            std::uint8_t i = done[lane];
+            while (i < candidates.count[lane]
+                   && candidates.of_lane[lane][i].near > frame.limit[lane])
+                ++i;
+            done[lane] = static_cast<std::uint8_t>(i + 1);
+            if (i == candidates.count[lane] || (query.active & bit) == 0) {
+                candidates.count[lane] = 0;
+                lanes &= ~bit;
+                continue;
+            }
+            const Candidates::Candidate& candidate = candidates.of_lane[lane][i];
+            elements[lane] = candidate.element;
+            if (candidate.kind == ElementRecord::Kind::triangle)
+                triangles |= bit;
+            else
+                test_exactly(query, frame, candidate.element, bit);
+        }
+        if (triangles != 0)
+            decide_triangles(query, frame, triangles, elements);
     }
 }
 
@@ -276,7 +393,7 @@ void block(PacketQuery& query, Frame& frame, LaneMask lanes) {
 void refresh_limits(const PacketQuery& query, Frame& frame, LaneMask lanes) {
     for (LaneMask rest = lanes; rest != 0; rest &= rest - 1) {
         const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-        frame.limit[lane] = limit_of(query, frame, lane);
+        frame.limit[lane] = std::min(frame.limit[lane], limit_of(query, frame, lane));
     }
 }
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "vera/accel/element_records.h"
 #include "vera/accel/local_geometry.h"
 #include "vera/accel/ray_index.h"
 #include "vera/accel/searches.h"
+#include "vera/accel/tree_child.h"
 #include "vera/math/transform.h"
 #include "vera/scene/prepared_ray.h"
 
@@ -22,7 +24,7 @@ using LaneMask = std::uint32_t;
 
 /// Rays, coordinate by coordinate.
 struct RayRows {
-    using Row = std::array<double, packet_size>;
+    struct alignas(64) Row : std::array<double, packet_size> {};
 
     std::array<Row, 3> origin;
     std::array<Row, 3> direction;
@@ -38,6 +40,38 @@ struct RayRows {
             t_max[lane],
             origin_error[lane]};
     }
+};
+
+/// PreparedRays, row by row.
+struct PreparedRows {
+    RayRows::Row axis; ///< the number of the axis along the ray
+    RayRows::Row shear_x;
+    RayRows::Row shear_y;
+    RayRows::Row direction_z;
+    RayRows::Row origin_size;
+    bool made = false;
+};
+
+/// Elements that lanes may meet, and which wait for the test that decides: of each, the local
+/// distance before which it is surely not met.
+struct Candidates {
+    struct Candidate {
+        std::uint32_t element = 0;
+        float near = 0;
+        ElementRecord::Kind kind = ElementRecord::Kind::box;
+    };
+
+    static constexpr std::size_t most = 8;
+    std::array<std::array<Candidate, most>, packet_size> of_lane;
+    std::array<std::uint8_t, packet_size> count = {};
+};
+
+/// What waits for each lane in a tree of boxes, and for the packet: children of nodes, where the
+/// rays enter their boxes, and, for the packet, the numbers of the nodes.
+struct Waiting {
+    std::vector<TreeChild> children;
+    std::vector<float> near;
+    std::vector<std::uint32_t> parent;
 };
 
 /// A packet as it visits a geometry: in its coordinates and double precision, for what decides, and
@@ -65,6 +99,9 @@ struct alignas(64) Frame {
     std::uint64_t first_primitive = 0;
     MaterialId material = inherited_material;
     std::array<PreparedRay, packet_size> prepared = empty_rays();
+    PreparedRows prepared_rows;
+    Candidates candidates;
+    Waiting waiting;
 
     static std::array<PreparedRay, packet_size> empty_rays();
 };
@@ -135,26 +172,6 @@ private:
     std::uint32_t last_visit_ = 0;
 };
 
-/// A child of a node of a tree of boxes: see WideNode.
-struct TreeChild {
-    std::uint32_t first = 0;
-    std::uint8_t kind = 0;
-    std::uint8_t count = 0;
-};
-
-/// A child that waits until a ray comes to it, and where that enters its box.
-struct WaitingAlone {
-    TreeChild child;
-    float near = 0;
-};
-
-/// The same for some lanes of a packet.
-struct WaitingTogether {
-    TreeChild child;
-    LaneMask lanes = 0;
-    Frame::Row near;
-};
-
 /// What is wanted of the crossings.
 enum class Purpose : std::uint8_t {
     nearest,      ///< the first face
@@ -173,13 +190,11 @@ struct PacketQuery {
     LaneMask active = 0;       ///< lanes that have no final answer
     std::uint32_t changes = 0; ///< how often a limit or active has changed
     RayRows::Row limit;        ///< crossings at a greater t do not count
-    std::vector<NearestSearch> nearest;
+    std::array<NearestSearch, packet_size> nearest;
     std::vector<WindowSearch> window;
     std::array<TransmittanceSearch, packet_size> transmittance;
     QueryCounts counts;
     Mailbox mailbox;
-    std::vector<WaitingAlone> waiting_alone;
-    std::vector<WaitingTogether> waiting_together;
     std::deque<Frame> frames; ///< by depth of subscenes
 };
 
@@ -200,6 +215,24 @@ void search_plainly(PacketQuery& query, Frame& frame, std::uint32_t element, Lan
 
 /// Tests the lanes' rays against the element, which is not a call, in the arithmetic that decides.
 void test_exactly(PacketQuery& query, Frame& frame, std::uint32_t element, LaneMask lanes);
+
+/// Tests the lanes' candidates that lie before their limits in the arithmetic that decides.
+void decide(PacketQuery& query, Frame& frame, LaneMask lanes);
+
+/// Notes that the lane's ray may meet the element, which is not a call, at no less than the local
+/// distance near.
+inline void add_candidate(
+    PacketQuery& query,
+    Frame& frame,
+    ElementRecord::Kind kind,
+    std::uint32_t element,
+    std::size_t lane,
+    float near) {
+    Candidates& candidates = frame.candidates;
+    if (candidates.count[lane] == Candidates::most)
+        decide(query, frame, LaneMask{1} << lane);
+    candidates.of_lane[lane][candidates.count[lane]++] = {element, near, kind};
+}
 
 /// Notes that the lanes' rays, of which only that is asked, meet something.
 void block(PacketQuery& query, Frame& frame, LaneMask lanes);

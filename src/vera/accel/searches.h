@@ -23,8 +23,14 @@ namespace vera::detail {
 /// one lies in it as well.
 class NearestSearch {
 public:
-    explicit NearestSearch(const Ray& world_ray)
-        : ray_(&world_ray) {}
+    /// Begins anew, for this ray.
+    void start(const Ray& world_ray) {
+        ray_ = &world_ray;
+        smallest_t_ = std::numeric_limits<double>::infinity();
+        limit_ = smallest_t_;
+        count_ = 0;
+        overflowed_ = false;
+    }
 
     void add(double t, FaceId face) {
         if (t > limit_)
@@ -77,7 +83,7 @@ private:
         count_ = kept + 1;
     }
 
-    const Ray* ray_;
+    const Ray* ray_ = nullptr;
     double smallest_t_ = std::numeric_limits<double>::infinity();
     double limit_ = std::numeric_limits<double>::infinity();
     std::array<Hit, 4> candidates_ = {};

@@ -154,10 +154,40 @@ struct Deferred {
 WideNode empty_node() {
     WideNode node = {};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        node.lower[axis].fill(infinite);
-        node.upper[axis].fill(-infinite);
+        node.planes[axis].fill(infinite);
+        node.planes[3 + axis].fill(-infinite);
     }
     return node;
+}
+
+void set_box(WideNode& node, std::size_t child, const BoxF& box) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        node.planes[axis][child] = box.lower[axis];
+        node.planes[3 + axis][child] = box.upper[axis];
+    }
+}
+
+/// Notes in which turn rays of each octant come to the node's children: by where the middles of
+/// their boxes lie along the octant's diagonal.
+void set_order(WideNode& node, std::size_t count) {
+    for (std::size_t octant = 0; octant < octant_count; ++octant) {
+        std::array<float, tree_width> place = {};
+        std::array<std::size_t, tree_width> order = {};
+        for (std::size_t i = 0; i < tree_width; ++i) {
+            order[i] = i;
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const float middle = node.planes[axis][i] + node.planes[3 + axis][i];
+                place[i] += (octant >> axis & 1U) != 0 ? -middle : middle;
+            }
+        }
+        std::stable_sort(
+            order.begin(),
+            order.begin() + static_cast<std::ptrdiff_t>(count),
+            [&](std::size_t a, std::size_t b) { return place[a] < place[b]; });
+        for (std::size_t i = 0; i < tree_width; ++i)
+            node.children[i].bits |= std::uint64_t{order[i]}
+                << (TreeChild::order_shift + TreeChild::order_width * octant);
+    }
 }
 
 /// Cuts ranges of references in two where lines have the least to do with the halves, weighed by
@@ -291,27 +321,26 @@ private:
         const std::vector<Range> children = children_of(range, depth);
         const std::size_t number = output.nodes.size();
         output.nodes.push_back(empty_node());
+        WideNode node = empty_node();
         for (std::size_t i = 0; i < children.size(); ++i) {
             const Range& child = children[i];
-            WideNode& node = output.nodes[number];
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                node.lower[axis][i] = child.box.lower[axis];
-                node.upper[axis][i] = child.box.upper[axis];
-            }
+            set_box(node, i, child.box);
             if (is_leaf(child)) {
-                node.kind[i] = block_kind(references_[child.first].kind);
-                node.count[i] = static_cast<std::uint8_t>(child.size());
-                node.first[i] = add_block(output, child);
+                node.children[i] = TreeChild::of(
+                    add_block(output, child),
+                    block_kind(references_[child.first].kind),
+                    child.size());
                 continue;
             }
-            node.kind[i] = ChildKind::node;
-            if (deferred != nullptr && child.size() <= deferred_size) {
+            std::size_t below = 0;
+            if (deferred != nullptr && child.size() <= deferred_size)
                 deferred->push_back({number, i, depth + 1, child});
-                continue;
-            }
-            const std::size_t below = build_node(output, child, depth + 1, deferred, deferred_size);
-            output.nodes[number].first[i] = static_cast<std::uint32_t>(below);
+            else
+                below = build_node(output, child, depth + 1, deferred, deferred_size);
+            node.children[i] = TreeChild::of(below, ChildKind::node, 0);
         }
+        set_order(node, children.size());
+        output.nodes[number] = node;
         return number;
     }
 
@@ -379,12 +408,11 @@ private:
             Output& output = outputs[i];
             const auto first_node = static_cast<std::uint32_t>(top.nodes.size());
             const auto first_row = static_cast<std::uint32_t>(top.rows.size());
-            top.nodes[deferred[i].node].first[deferred[i].child] = first_node;
+            top.nodes[deferred[i].node].children[deferred[i].child].bits += first_node;
             for (WideNode& node : output.nodes) {
-                for (std::size_t child = 0; child < tree_width; ++child)
-                    if (node.kind[child] != ChildKind::none)
-                        node.first[child] +=
-                            node.kind[child] == ChildKind::node ? first_node : first_row;
+                for (TreeChild& child : node.children)
+                    if (child.kind() != ChildKind::none)
+                        child.bits += child.kind() == ChildKind::node ? first_node : first_row;
                 top.nodes.push_back(node);
             }
             top.rows.insert(top.rows.end(), output.rows.begin(), output.rows.end());

@@ -3,6 +3,7 @@
 
 #include "vera/accel/element_records.h"
 #include "vera/accel/local_geometry.h"
+#include "vera/accel/tree_child.h"
 
 #include <array>
 #include <cstddef>
@@ -11,30 +12,26 @@
 
 namespace vera::detail {
 
-/// Children of a node, and elements of a leaf's block.
-constexpr std::size_t tree_width = 8;
+/// Elements of a leaf's block.
 constexpr std::size_t block_width = 4;
 
 /// What a child of a node is: none, another node, or a block of elements of one kind.
 struct ChildKind {
     static constexpr std::uint8_t none = 0;
     static constexpr std::uint8_t node = 1;
-    static constexpr std::uint8_t first_block = 2; ///< and ElementRecord::Kind on top
+    static constexpr std::uint8_t first_block = 8; ///< and ElementRecord::Kind on top
 };
 
 constexpr std::uint8_t block_kind(ElementRecord::Kind kind) {
     return static_cast<std::uint8_t>(ChildKind::first_block + static_cast<std::uint8_t>(kind));
 }
 
-/// A node: the boxes of its children, axis by axis, in local coordinates, and where these are. The
-/// boxes of absent children are empty.
+/// A node: the boxes of its children in local coordinates, and what these are. Planes 0 to 2 bound
+/// the boxes from below along each axis, planes 3 to 5 from above. The boxes of absent children,
+/// which stand behind the others, are empty.
 struct alignas(64) WideNode {
-    std::array<std::array<float, tree_width>, 3> lower;
-    std::array<std::array<float, tree_width>, 3> upper;
-    std::array<std::uint32_t, tree_width>
-        first; ///< number of the node, or of the block's first row
-    std::array<std::uint8_t, tree_width> kind;
-    std::array<std::uint8_t, tree_width> count; ///< elements of the block
+    std::array<std::array<float, tree_width>, 6> planes;
+    std::array<TreeChild, tree_width> children;
 };
 
 /// Values of the elements of a block: row 0 holds their numbers, row 1 + i value i of their

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vera/accel/exact_triangles.h"
+
+#include <cstdint>
+#include <limits>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "vera/accel/exact_triangles.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+
+namespace vera::detail::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Doubles = hn::CappedTag<double, packet_size>;
+using Vec = hn::Vec<Doubles>;
+
+HWY_INLINE Vec row(const RayRows::Row& values, std::size_t lane) {
+    return hn::Load(Doubles(), values.data() + lane);
+}
+
+HWY_INLINE void store(Vec value, RayRows::Row& values, std::size_t lane) {
+    hn::Store(value, Doubles(), values.data() + lane);
+}
+
+/// The coordinate along one of three axes, which lanes choose by being in one of two masks or not.
+template <typename Mask>
+HWY_INLINE Vec chosen(Mask first, Vec a, Mask second, Vec b, Vec c) {
+    return hn::IfThenElse(first, a, hn::IfThenElse(second, b, c));
+}
+
+void prepare_rays_kernel(Frame& frame) {
+    const Doubles d;
+    for (std::size_t lane = 0; lane < packet_size; lane += hn::Lanes(d)) {
+        const Vec x = row(frame.rays.direction[0], lane);
+        const Vec y = row(frame.rays.direction[1], lane);
+        const Vec z = row(frame.rays.direction[2], lane);
+        // As longest_axis() does, also where numbers are none.
+        const auto along_x =
+            hn::And(hn::Ge(hn::Abs(x), hn::Abs(y)), hn::Ge(hn::Abs(x), hn::Abs(z)));
+        const auto along_y = hn::AndNot(along_x, hn::Ge(hn::Abs(y), hn::Abs(z)));
+        const Vec along = chosen(along_x, x, along_y, y, z);
+        PreparedRows& prepared = frame.prepared_rows;
+        store(
+            chosen(along_x, hn::Zero(d), along_y, hn::Set(d, 1), hn::Set(d, 2)),
+            prepared.axis,
+            lane);
+        store(hn::Div(chosen(along_x, y, along_y, z, x), along), prepared.shear_x, lane);
+        store(hn::Div(chosen(along_x, z, along_y, x, y), along), prepared.shear_y, lane);
+        store(along, prepared.direction_z, lane);
+        store(
+            hn::Max(
+                hn::Max(
+                    hn::Abs(row(frame.rays.origin[0], lane)),
+                    hn::Abs(row(frame.rays.origin[1], lane))),
+                hn::Abs(row(frame.rays.origin[2], lane))),
+            prepared.origin_size,
+            lane);
+    }
+}
+
+HWY_INLINE Vec sum3(Vec a, Vec b, Vec c) {
+    return hn::Add(hn::Add(a, b), c);
+}
+
+HWY_INLINE Vec largest3(const Vec (&a)[3]) {
+    return hn::Max(hn::Max(hn::Abs(a[0]), hn::Abs(a[1])), hn::Abs(a[2]));
+}
+
+HWY_INLINE Vec size3(const Vec (&a)[3]) {
+    return sum3(hn::Abs(a[0]), hn::Abs(a[1]), hn::Abs(a[2]));
+}
+
+/// edge_function()
+HWY_INLINE Vec edge(Vec ax, Vec ay, Vec bx, Vec by) {
+    return hn::Sub(hn::Mul(ax, by), hn::Mul(ay, bx));
+}
+
+/// The operations of triangle_crossing() and starts_on_triangle(), in their order.
+HWY_INLINE LaneMask
+cross_part(const Frame& frame, const TriangleRows& triangles, std::size_t lane, RayRows::Row& ts) {
+    const Doubles d;
+    const Vec zero = hn::Zero(d);
+    const PreparedRows& prepared = frame.prepared_rows;
+    const Vec axis = row(prepared.axis, lane);
+    const auto along_x = hn::Eq(axis, zero);
+    const auto along_y = hn::Eq(axis, hn::Set(d, 1));
+    const Vec shear_x = row(prepared.shear_x, lane);
+    const Vec shear_y = row(prepared.shear_y, lane);
+    Vec x[3];
+    Vec y[3];
+    Vec z[3];
+    Vec from_origin[3] = {zero, zero, zero}; // of the first corner
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+        Vec from[3] = {zero, zero, zero};
+        for (std::size_t i = 0; i < 3; ++i) {
+            from[i] = hn::Sub(row(triangles[corner][i], lane), row(frame.rays.origin[i], lane));
+            if (corner == 0)
+                from_origin[i] = from[i];
+        }
+        z[corner] = chosen(along_x, from[0], along_y, from[1], from[2]);
+        x[corner] = hn::Sub(
+            chosen(along_x, from[1], along_y, from[2], from[0]), hn::Mul(shear_x, z[corner]));
+        y[corner] = hn::Sub(
+            chosen(along_x, from[2], along_y, from[0], from[1]), hn::Mul(shear_y, z[corner]));
+    }
+    const Vec u = edge(x[1], y[1], x[2], y[2]);
+    const Vec v = edge(x[2], y[2], x[0], y[0]);
+    const Vec w = edge(x[0], y[0], x[1], y[1]);
+    const auto left = hn::And(hn::And(hn::Ge(u, zero), hn::Ge(v, zero)), hn::Ge(w, zero));
+    const auto right = hn::And(hn::And(hn::Le(u, zero), hn::Le(v, zero)), hn::Le(w, zero));
+    const Vec area = sum3(u, v, w);
+    const Vec t = hn::Div(
+        sum3(hn::Mul(u, z[0]), hn::Mul(v, z[1]), hn::Mul(w, z[2])),
+        hn::Mul(area, row(prepared.direction_z, lane)));
+    const Vec t_min = row(frame.rays.t_min, lane);
+    const auto covered = hn::And(
+        hn::And(hn::Ge(t, t_min), hn::Le(t, row(frame.rays.t_max, lane))),
+        hn::Le(hn::Abs(t), hn::Set(d, std::numeric_limits<double>::max())));
+    hn::Store(t, d, ts.data() + lane);
+
+    Vec ab[3];
+    Vec ac[3];
+    Vec corner_size = zero;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vec a = row(triangles[0][i], lane);
+        const Vec b = row(triangles[1][i], lane);
+        const Vec c = row(triangles[2][i], lane);
+        ab[i] = hn::Sub(b, a);
+        ac[i] = hn::Sub(c, a);
+        corner_size = hn::Max(corner_size, hn::Max(hn::Abs(a), hn::Max(hn::Abs(b), hn::Abs(c))));
+    }
+    const Vec normal[3] = {
+        edge(ab[1], ab[2], ac[1], ac[2]),
+        edge(ab[2], ab[0], ac[2], ac[0]),
+        edge(ab[0], ab[1], ac[0], ac[1])};
+    const Vec start_distance = hn::Add(
+        row(frame.rays.origin_error, lane),
+        hn::Mul(hn::Set(d, 0x1p-48), hn::Max(corner_size, row(prepared.origin_size, lane))));
+    const Vec bound = hn::Add(
+        hn::Mul(start_distance, size3(normal)),
+        hn::Mul(
+            hn::Mul(hn::Mul(hn::Set(d, 0x1p-50), size3(ab)), size3(ac)), largest3(from_origin)));
+    const Vec distance = sum3(
+        hn::Mul(normal[0], from_origin[0]),
+        hn::Mul(normal[1], from_origin[1]),
+        hn::Mul(normal[2], from_origin[2]));
+    const auto starts = hn::And(hn::Ge(t_min, zero), hn::Le(hn::Abs(distance), bound));
+    const auto met =
+        hn::AndNot(starts, hn::And(hn::Or(left, right), hn::AndNot(hn::Eq(area, zero), covered)));
+    std::uint8_t bytes[8] = {};
+    hn::StoreMaskBits(d, met, bytes);
+    return (LaneMask{bytes[0]} & ((LaneMask{1} << hn::Lanes(d)) - 1)) << lane;
+}
+
+LaneMask cross_triangles_kernel(
+    const Frame& frame, LaneMask lanes, const TriangleRows& triangles, RayRows::Row& t) {
+    constexpr std::size_t width = hn::MaxLanes(Doubles());
+    LaneMask met = 0;
+    for (std::size_t lane = 0; lane < packet_size; lane += hn::Lanes(Doubles()))
+        if ((lanes >> lane & ((LaneMask{1} << width) - 1)) != 0)
+            met |= cross_part(frame, triangles, lane, t);
+    return met & lanes;
+}
+
+} // namespace vera::detail::HWY_NAMESPACE
+
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+
+namespace vera::detail {
+
+HWY_EXPORT(prepare_rays_kernel);
+HWY_EXPORT(cross_triangles_kernel);
+
+void prepare_rays(Frame& frame) {
+    HWY_DYNAMIC_DISPATCH(prepare_rays_kernel)(frame);
+}
+
+LaneMask cross_triangles(
+    const Frame& frame, LaneMask lanes, const TriangleRows& triangles, RayRows::Row& t) {
+    return HWY_DYNAMIC_DISPATCH(cross_triangles_kernel)(frame, lanes, triangles, t);
+}
+
+} // namespace vera::detail
+
+#endif

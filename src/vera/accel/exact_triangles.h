@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "vera/accel/packet_query.h"
+
+#include <array>
+
+namespace vera::detail {
+
+/// A triangle for each lane: the coordinates of its corners.
+using TriangleRows = std::array<std::array<RayRows::Row, 3>, 3>;
+
+/// The lanes' rays as triangle_crossing() wants them: PreparedRay, row by row.
+void prepare_rays(Frame& frame);
+
+/// Each lane's ray with its triangle, as triangle_crossing() does it, to the bit: returns those of
+/// the lanes that meet theirs, and the t at which they do. The frame's rays must be prepared.
+LaneMask
+cross_triangles(const Frame& frame, LaneMask lanes, const TriangleRows& triangles, RayRows::Row& t);
+
+} // namespace vera::detail
