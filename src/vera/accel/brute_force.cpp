@@ -47,7 +47,7 @@ private:
 
     Hit nearest(const QueryRay& query, QueryCounts& counts) const {
         detail::NearestSearch search;
-        search.start(query.ray);
+        search.start(coincidence_reach(query.ray));
         search_all(query, counts, search);
         if (!search.undecided())
             return search.hit();

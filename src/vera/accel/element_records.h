@@ -11,7 +11,7 @@ namespace vera::detail {
 /// How an element is met by a cheap test in single precision that never misses a ray which meets
 /// the element, in local coordinates.
 struct ElementRecord {
-    enum class Kind : std::uint32_t {
+    enum class Kind : std::uint8_t {
         sphere,     ///< center, radius
         triangle,   ///< corner, edge e to the second corner, edge f to the third
         quadrangle, ///< corner, edges e and f to its neighbours, x and y: corner + x e + y f is the

@@ -28,14 +28,14 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 template <typename V>
 HWY_INLINE V dot3(const V (&a)[3], const V (&b)[3]) {
-    return hn::Add(hn::Add(hn::Mul(a[0], b[0]), hn::Mul(a[1], b[1])), hn::Mul(a[2], b[2]));
+    return hn::MulAdd(a[2], b[2], hn::MulAdd(a[1], b[1], hn::Mul(a[0], b[0])));
 }
 
 template <typename V>
 HWY_INLINE void cross3(const V (&a)[3], const V (&b)[3], V (&result)[3]) {
-    result[0] = hn::Sub(hn::Mul(a[1], b[2]), hn::Mul(a[2], b[1]));
-    result[1] = hn::Sub(hn::Mul(a[2], b[0]), hn::Mul(a[0], b[2]));
-    result[2] = hn::Sub(hn::Mul(a[0], b[1]), hn::Mul(a[1], b[0]));
+    result[0] = hn::NegMulAdd(a[2], b[1], hn::Mul(a[1], b[2]));
+    result[1] = hn::NegMulAdd(a[0], b[2], hn::Mul(a[2], b[0]));
+    result[2] = hn::NegMulAdd(a[1], b[0], hn::Mul(a[0], b[1]));
 }
 
 /// Rays in local coordinates: see Frame.
@@ -100,28 +100,84 @@ meets_ball(D d, const TestedRays<D>& rays, const hn::Vec<D>* center, hn::Vec<D> 
     return hn::And(hn::Le(sum, reach), hn::Ge(rays.limit, zero));
 }
 
-/// A ray meets a sphere that it passes through from one side to the other.
+/// Where rays meet an element, if they do: those that may, those that surely do, before which local
+/// distance they surely do not, and, for those that surely do, by which they have.
 template <typename D>
-HWY_INLINE hn::Mask<D>
-surely_meets_ball(D d, const TestedRays<D>& rays, const hn::Vec<D>* center, hn::Vec<D> radius) {
+struct Meeting {
+    hn::Mask<D> may;
+    hn::Mask<D> sure;
+    hn::Vec<D> near;
+    hn::Vec<D> far;
+};
+
+/// A ray surely meets a sphere that it passes through from one side to the other; where it starts
+/// surely outside, by when it has entered it.
+template <typename D>
+HWY_INLINE Meeting<D>
+meeting_ball(D d, const TestedRays<D>& rays, const hn::Vec<D>* center, hn::Vec<D> radius) {
     using V = hn::Vec<D>;
     const auto place = center_place(rays, center);
+    const V zero = hn::Zero(d);
     const V margin = hn::Set(d, 4 * rays.slack);
-    const V inner = hn::Max(hn::Sub(radius, margin), hn::Zero(d));
+    const V inner = hn::Max(hn::Sub(radius, margin), zero);
     const V outer = hn::Add(radius, margin);
     const V inner_squared = hn::Mul(hn::Mul(inner, inner), hn::Set(d, 2 - up));
     const V outer_squared = hn::Mul(hn::Mul(outer, outer), hn::Set(d, up));
     const V end = sure_limit(d, rays);
-    const V t = hn::Max(hn::Zero(d), hn::Min(end, place.closest));
+    const V t = hn::Max(zero, hn::Min(end, place.closest));
     const V to_t = hn::Sub(place.closest, t);
     const V to_end = hn::Sub(place.closest, end);
     const V start_squared = dot3(place.to_center, place.to_center);
-    const V middle_squared = hn::Add(place.distance_squared, hn::Mul(to_t, to_t));
-    const V end_squared = hn::Add(place.distance_squared, hn::Mul(to_end, to_end));
-    const auto ends_outside =
-        hn::Or(hn::Gt(start_squared, outer_squared), hn::Gt(end_squared, outer_squared));
-    return hn::And(
-        hn::And(hn::Lt(middle_squared, inner_squared), ends_outside), hn::Gt(end, hn::Zero(d)));
+    const V middle_squared = hn::MulAdd(to_t, to_t, place.distance_squared);
+    const V end_squared = hn::MulAdd(to_end, to_end, place.distance_squared);
+    const auto starts_outside = hn::Gt(start_squared, outer_squared);
+    const auto ends_outside = hn::Or(starts_outside, hn::Gt(end_squared, outer_squared));
+    // Half the length within the sphere lies between these two.
+    const V shorter = hn::Sqrt(hn::Max(zero, hn::Sub(inner_squared, place.distance_squared)));
+    const V longer = hn::Sqrt(hn::Max(zero, hn::Sub(outer_squared, place.distance_squared)));
+    const V far = hn::IfThenElse(
+        starts_outside, hn::Sub(place.closest, shorter), hn::Add(place.closest, longer));
+    return {
+        meets_ball(d, rays, center, hn::Add(radius, hn::Set(d, 2 * rays.slack))),
+        hn::And(hn::And(hn::Lt(middle_squared, inner_squared), ends_outside), hn::Gt(end, zero)),
+        hn::Sub(hn::Sub(place.closest, longer), margin),
+        hn::Add(far, margin)};
+}
+
+/// A corner of a face and the edges from there, and what follows from them.
+template <typename V>
+struct Face {
+    V corner[3];
+    V e[3];
+    V f[3];
+    V normal[3];
+    V largest;      ///< of the components of e and f, without their signs
+    V normal_error; ///< how much a ray that is moved by 1 may change a product with the normal
+};
+
+/// From the values of a triangle's or quadrangle's record.
+template <typename D>
+HWY_INLINE Face<hn::Vec<D>> face_of(D d, const hn::Vec<D>* values) {
+    using V = hn::Vec<D>;
+    const V e[3] = {values[3], values[4], values[5]};
+    const V f[3] = {values[6], values[7], values[8]};
+    V normal[3];
+    cross3(e, f, normal);
+    const V largest_e = hn::Max(hn::Abs(e[0]), hn::Max(hn::Abs(e[1]), hn::Abs(e[2])));
+    const V largest_f = hn::Max(hn::Abs(f[0]), hn::Max(hn::Abs(f[1]), hn::Abs(f[2])));
+    // The normal's own components are off by up to 5 * 2^-24 of the product of the largest ones,
+    // which counts over the 5 units that a ray may be long, along three axes.
+    const V normal_size =
+        hn::Add(hn::Add(hn::Abs(normal[0]), hn::Abs(normal[1])), hn::Abs(normal[2]));
+    return {
+        {values[0], values[1], values[2]},
+        {e[0], e[1], e[2]},
+        {f[0], f[1], f[2]},
+        {normal[0], normal[1], normal[2]},
+        hn::Max(largest_e, largest_f),
+        hn::Add(
+            hn::Add(normal_size, normal_size),
+            hn::Mul(hn::Set(d, 1.5F), hn::Mul(largest_e, largest_f)))};
 }
 
 /// Where rays meet the plane of a face: at corner + (u e + v f) / speed, and there t is
@@ -132,7 +188,8 @@ struct PlanePlace {
     V v;
     V speed;
     V depth;
-    V largest; ///< of the components of e and f, without their signs
+    V largest; ///< the face's
+    V normal_error;
 };
 
 /// The same, and whether that is within the face: it is if the numbers from lowest to highest, one
@@ -147,32 +204,27 @@ struct FacePlace {
 
 template <typename D>
 HWY_INLINE PlanePlace<hn::Vec<D>>
-plane_place(D, const TestedRays<D>& rays, const hn::Vec<D>* values) {
+plane_place(D, const TestedRays<D>& rays, const Face<hn::Vec<D>>& face) {
     using V = hn::Vec<D>;
-    const V e[3] = {values[3], values[4], values[5]};
-    const V f[3] = {values[6], values[7], values[8]};
-    V normal[3];
-    cross3(e, f, normal);
     const V to_corner[3] = {
-        hn::Sub(values[0], rays.origin[0]),
-        hn::Sub(values[1], rays.origin[1]),
-        hn::Sub(values[2], rays.origin[2])};
+        hn::Sub(face.corner[0], rays.origin[0]),
+        hn::Sub(face.corner[1], rays.origin[1]),
+        hn::Sub(face.corner[2], rays.origin[2])};
     V moment[3];
     cross3(to_corner, rays.direction, moment);
-    const V largest_e = hn::Max(hn::Abs(e[0]), hn::Max(hn::Abs(e[1]), hn::Abs(e[2])));
-    const V largest_f = hn::Max(hn::Abs(f[0]), hn::Max(hn::Abs(f[1]), hn::Abs(f[2])));
     return {
-        dot3(moment, f),
-        hn::Neg(dot3(moment, e)),
-        dot3(normal, rays.direction),
-        dot3(normal, to_corner),
-        hn::Max(largest_e, largest_f)};
+        dot3(moment, face.f),
+        hn::Neg(dot3(moment, face.e)),
+        dot3(face.normal, rays.direction),
+        dot3(face.normal, to_corner),
+        face.largest,
+        face.normal_error};
 }
 
 template <typename D>
 HWY_INLINE FacePlace<hn::Vec<D>>
-triangle_place(D d, const TestedRays<D>& rays, const hn::Vec<D>* values) {
-    const auto place = plane_place(d, rays, values);
+triangle_place(D d, const TestedRays<D>& rays, const Face<hn::Vec<D>>& face) {
+    const auto place = plane_place(d, rays, face);
     const auto w = hn::Sub(hn::Sub(place.speed, place.u), place.v);
     // Moving the ray by slack changes a volume with an edge by at most slack times the edge's
     // length, which is at most sqrt(3) times its largest component; the third is a sum of two.
@@ -187,7 +239,7 @@ template <typename D>
 HWY_INLINE FacePlace<hn::Vec<D>>
 quadrangle_place(D d, const TestedRays<D>& rays, const hn::Vec<D>* values) {
     using V = hn::Vec<D>;
-    const auto place = plane_place(d, rays, values);
+    const auto place = plane_place(d, rays, face_of(d, values));
     // Left of the sides from (1, 0) to the fourth corner (x, y) and from there to (0, 1).
     const V one = hn::Set(d, 1);
     const V x = values[9];
@@ -204,50 +256,7 @@ quadrangle_place(D d, const TestedRays<D>& rays, const hn::Vec<D>* values) {
         hn::Mul(hn::Mul(hn::Set(d, 8 * rays.slack), place.largest), sizes)};
 }
 
-/// Whether the face may be met between 0 and the limit.
-template <typename D>
-HWY_INLINE hn::Mask<D>
-meets_face(D d, const TestedRays<D>& rays, const FacePlace<hn::Vec<D>>& face) {
-    using V = hn::Vec<D>;
-    const PlanePlace<V>& place = face.plane;
-    const auto met =
-        hn::Or(hn::Ge(face.lowest, hn::Neg(face.error)), hn::Le(face.highest, face.error));
-    const V size = hn::Abs(place.speed);
-    const V t_size = hn::Mul(place.depth, hn::CopySignToAbs(hn::Set(d, 1), place.speed));
-    const V deep = hn::Mul(hn::Set(d, 8 * rays.slack), hn::Mul(place.largest, place.largest));
-    const auto behind_start =
-        hn::Ge(hn::Add(t_size, deep), hn::Neg(hn::Mul(hn::Set(d, rays.slack), size)));
-    const auto before_limit = hn::Le(hn::Sub(t_size, deep), hn::Mul(rays.limit, size));
-    return hn::And(met, hn::And(behind_start, before_limit));
-}
-
-/// Whether the face is surely met there: all as above with twice the margins, on the other side.
-template <typename D>
-HWY_INLINE hn::Mask<D>
-surely_meets_face(D d, const TestedRays<D>& rays, const FacePlace<hn::Vec<D>>& face) {
-    using V = hn::Vec<D>;
-    const PlanePlace<V>& place = face.plane;
-    const V error = hn::Add(face.error, face.error);
-    const auto met = hn::Or(hn::Gt(face.lowest, error), hn::Lt(face.highest, hn::Neg(error)));
-    const V size = hn::Abs(place.speed);
-    const V t_size = hn::Mul(place.depth, hn::CopySignToAbs(hn::Set(d, 1), place.speed));
-    const V deep = hn::Mul(hn::Set(d, 16 * rays.slack), hn::Mul(place.largest, place.largest));
-    const auto behind_start = hn::Gt(t_size, deep);
-    const auto before_limit = hn::Lt(hn::Add(t_size, deep), hn::Mul(sure_limit(d, rays), size));
-    return hn::And(met, hn::And(behind_start, before_limit));
-}
-
-/// Where rays meet an element, if they do: those that may, those that surely do, before which local
-/// distance they surely do not, and, for those that surely do, by which they have.
-template <typename D>
-struct Meeting {
-    hn::Mask<D> may;
-    hn::Mask<D> sure;
-    hn::Vec<D> near;
-    hn::Vec<D> far;
-};
-
-/// For rays that do not start on the face.
+/// Sure only of rays that do not start on the face.
 template <typename D>
 HWY_INLINE Meeting<D>
 meeting_face(D d, const TestedRays<D>& rays, const FacePlace<hn::Vec<D>>& face) {
@@ -256,7 +265,7 @@ meeting_face(D d, const TestedRays<D>& rays, const FacePlace<hn::Vec<D>>& face) 
     const V slack = hn::Set(d, rays.slack);
     const V size = hn::Abs(place.speed);
     const V t_size = hn::Mul(place.depth, hn::CopySignToAbs(hn::Set(d, 1), place.speed));
-    const V deep = hn::Mul(hn::Mul(hn::Set(d, 8), slack), hn::Mul(place.largest, place.largest));
+    const V deep = hn::Mul(slack, place.normal_error);
     const V deeper = hn::Add(deep, deep);
     const V near_size = hn::Sub(t_size, deep);
     const V far_size = hn::Add(t_size, deeper);
@@ -269,8 +278,9 @@ meeting_face(D d, const TestedRays<D>& rays, const FacePlace<hn::Vec<D>>& face) 
     const V error = hn::Add(face.error, face.error);
     const auto surely_in_outline =
         hn::Or(hn::Gt(face.lowest, error), hn::Lt(face.highest, hn::Neg(error)));
+    const V end = hn::NegMulAdd(hn::Set(d, 4), slack, rays.limit);
     const auto surely_in_range =
-        hn::And(hn::Gt(t_size, deeper), hn::Lt(far_size, hn::Mul(sure_limit(d, rays), size)));
+        hn::And(hn::Gt(t_size, deeper), hn::Lt(far_size, hn::Mul(end, size)));
     const V per_size = hn::Div(hn::Set(d, 1), size);
     return {
         hn::And(in_outline, in_range),
@@ -416,9 +426,9 @@ may_meet(D d, const TestedRays<D>& rays, ElementRecord::Kind kind, const hn::Vec
     case ElementRecord::Kind::sphere:
         return meets_ball(d, rays, values, hn::Add(values[3], hn::Set(d, 2 * rays.slack)));
     case ElementRecord::Kind::triangle:
-        return meets_face(d, rays, triangle_place(d, rays, values));
+        return meeting_face(d, rays, triangle_place(d, rays, face_of(d, values))).may;
     case ElementRecord::Kind::quadrangle:
-        return meets_face(d, rays, quadrangle_place(d, rays, values));
+        return meeting_face(d, rays, quadrangle_place(d, rays, values)).may;
     case ElementRecord::Kind::mantle:
     case ElementRecord::Kind::cylinder:
         return meets_cylinder(d, rays, values);
@@ -435,11 +445,11 @@ HWY_INLINE hn::Mask<D>
 surely_meets(D d, const TestedRays<D>& rays, ElementRecord::Kind kind, const hn::Vec<D>* values) {
     switch (kind) {
     case ElementRecord::Kind::sphere:
-        return surely_meets_ball(d, rays, values, values[3]);
+        return meeting_ball(d, rays, values, values[3]).sure;
     case ElementRecord::Kind::triangle:
-        return surely_meets_face(d, rays, triangle_place(d, rays, values));
+        return meeting_face(d, rays, triangle_place(d, rays, face_of(d, values))).sure;
     case ElementRecord::Kind::quadrangle:
-        return surely_meets_face(d, rays, quadrangle_place(d, rays, values));
+        return meeting_face(d, rays, quadrangle_place(d, rays, values)).sure;
     case ElementRecord::Kind::mantle:
         return surely_meets_mantle(d, rays, values);
     case ElementRecord::Kind::cylinder:
@@ -475,9 +485,11 @@ HWY_INLINE Meeting<D>
 meeting(D d, const TestedRays<D>& rays, ElementRecord::Kind kind, const hn::Vec<D>* values) {
     switch (kind) {
     case ElementRecord::Kind::triangle:
-        return meeting_face(d, rays, triangle_place(d, rays, values));
+        return meeting_face(d, rays, triangle_place(d, rays, face_of(d, values)));
     case ElementRecord::Kind::quadrangle:
         return meeting_face(d, rays, quadrangle_place(d, rays, values));
+    case ElementRecord::Kind::sphere:
+        return meeting_ball(d, rays, values, values[3]);
     default:
         break;
     }

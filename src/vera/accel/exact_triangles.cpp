@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/accel/exact_triangles.h"
 
+#include <bit>
 #include <cstdint>
 #include <limits>
 
@@ -166,6 +167,37 @@ LaneMask cross_triangles_kernel(
     return met & lanes;
 }
 
+LaneMask take_candidates_kernel(
+    Frame& frame, LaneMask lanes, std::array<std::uint32_t, packet_size>& numbers) {
+    const hn::CappedTag<float, packet_size> d;
+    Candidates& candidates = frame.candidates;
+    LaneMask taken = 0;
+    for (std::size_t i = 0; i < candidates.count && taken != lanes; ++i) {
+        LaneMask wanted = candidates.all[i].lanes & lanes & ~taken;
+        if (wanted == 0)
+            continue;
+        candidates.all[i].lanes &= ~wanted;
+        LaneMask behind = 0;
+        for (std::size_t lane = 0; lane < packet_size; lane += hn::Lanes(d)) {
+            std::uint8_t bytes[8] = {};
+            hn::StoreMaskBits(
+                d,
+                hn::Gt(
+                    hn::LoadU(d, candidates.near[i].data() + lane),
+                    hn::LoadU(d, frame.limit.data() + lane)),
+                bytes);
+            const LaneMask bits = bytes[0] | LaneMask{bytes[1]} << 8U;
+            behind |= (bits & ((LaneMask{1} << hn::Lanes(d)) - 1)) << lane;
+        }
+        wanted &= ~behind;
+        taken |= wanted;
+        for (; wanted != 0; wanted &= wanted - 1)
+            numbers[static_cast<std::size_t>(std::countr_zero(wanted))] =
+                static_cast<std::uint32_t>(i);
+    }
+    return taken;
+}
+
 } // namespace vera::detail::HWY_NAMESPACE
 
 HWY_AFTER_NAMESPACE();
@@ -176,6 +208,7 @@ namespace vera::detail {
 
 HWY_EXPORT(prepare_rays_kernel);
 HWY_EXPORT(cross_triangles_kernel);
+HWY_EXPORT(take_candidates_kernel);
 
 void prepare_rays(Frame& frame) {
     HWY_DYNAMIC_DISPATCH(prepare_rays_kernel)(frame);
@@ -184,6 +217,11 @@ void prepare_rays(Frame& frame) {
 LaneMask cross_triangles(
     const Frame& frame, LaneMask lanes, const TriangleRows& triangles, RayRows::Row& t) {
     return HWY_DYNAMIC_DISPATCH(cross_triangles_kernel)(frame, lanes, triangles, t);
+}
+
+LaneMask
+take_candidates(Frame& frame, LaneMask lanes, std::array<std::uint32_t, packet_size>& numbers) {
+    return HWY_DYNAMIC_DISPATCH(take_candidates_kernel)(frame, lanes, numbers);
 }
 
 } // namespace vera::detail

@@ -4,6 +4,7 @@
 #include "vera/accel/packet_query.h"
 
 #include <array>
+#include <cstdint>
 
 namespace vera::detail {
 
@@ -17,5 +18,10 @@ void prepare_rays(Frame& frame);
 /// the lanes that meet theirs, and the t at which they do. The frame's rays must be prepared.
 LaneMask
 cross_triangles(const Frame& frame, LaneMask lanes, const TriangleRows& triangles, RayRows::Row& t);
+
+/// Takes the next candidate of each of the lanes that has one before its limit out of the frame's
+/// candidates: its number among them. Returns those lanes.
+LaneMask
+take_candidates(Frame& frame, LaneMask lanes, std::array<std::uint32_t, packet_size>& numbers);
 
 } // namespace vera::detail

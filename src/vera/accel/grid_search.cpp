@@ -499,6 +499,7 @@ void visit_grid(
 
 void search_grids_kernel(PacketQuery& query) {
     query.mailbox.clear();
+    query.local_start = LocalStart::in_bounds;
     const LaneMask lanes = enter_scene(query);
     if (lanes != 0)
         visit_grid<packet_size>(query, query.frames.front(), 0, lanes, 0);

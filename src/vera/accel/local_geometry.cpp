@@ -12,6 +12,8 @@ namespace vera::detail {
 LocalGeometry local_geometry(const Geometry& geometry, const std::vector<Box3>& subscene_bounds) {
     LocalGeometry local;
     local.geometry = &geometry;
+    if (geometry.items.size() == 1 && geometry.meshes.size() == 1)
+        local.mesh_corners = geometry.meshes.front().position_indices.data();
     local.bounds = bounds(geometry, subscene_bounds);
     if (local.bounds.empty())
         return local;

@@ -6,6 +6,7 @@
 #include "vera/scene/geometry.h"
 #include "vera/scene/outline_table.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace vera::detail {
@@ -21,7 +22,9 @@ struct LocalGeometry {
     double scale = 1;
     Box3 local_bounds;
     double coordinate_size = 0; ///< the largest that says where anything lies, in scene units
-    OutlineTable outlines;      ///< made by the index, for the tests that decide
+    /// Of a geometry that is one mesh: Mesh::position_indices, for what asks for them early.
+    const std::uint32_t* mesh_corners = nullptr;
+    OutlineTable outlines; ///< made by the index, for the tests that decide
 };
 
 inline Vec3 local_point(const LocalGeometry& local, Vec3 point) {

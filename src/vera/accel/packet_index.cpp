@@ -4,15 +4,18 @@
 #include "vera/base/check.h"
 
 #include <algorithm>
+#include <array>
+#include <limits>
 
 namespace vera::detail {
 
 namespace {
 
-/// Each thread keeps the memory of its queries.
-PacketQuery& query_of_this_thread() {
-    thread_local PacketQuery query;
-    return query;
+/// Each thread keeps the memory of its queries: of the packet that is searched, and of the one
+/// before, which is decided when what that takes has arrived.
+std::array<PacketQuery, 2>& queries_of_this_thread() {
+    thread_local std::array<PacketQuery, 2> queries;
+    return queries;
 }
 
 void start(
@@ -24,7 +27,7 @@ void start(
     query.geometries = searched.geometries;
     query.purpose = purpose;
     query.rays = rays;
-    query.active = (LaneMask{1} << rays.size()) - 1;
+    query.active = ~LaneMask{0} >> (std::numeric_limits<LaneMask>::digits - rays.size());
     for (std::size_t lane = 0; lane < rays.size(); ++lane)
         query.limit[lane] = rays[lane].ray.t_max;
 }
@@ -40,22 +43,16 @@ void look_again(
         query.limit[lane] = std::min(query.limit[lane], query.window[lane].limit());
     }
     searched.search(query);
+    decide_main_scene(query);
     for (std::size_t lane = 0; lane < query.rays.size(); ++lane)
         if ((undecided >> lane & 1U) != 0)
             hits[lane] = query.window[lane].hit();
 }
 
-void find_nearest(
-    PacketQuery& query,
-    const SearchedScene& searched,
-    std::span<const QueryRay> rays,
-    std::span<Hit> hits) {
-    start(query, searched, rays, Purpose::nearest);
-    for (std::size_t lane = 0; lane < rays.size(); ++lane)
-        query.nearest[lane].start(rays[lane].ray);
-    searched.search(query);
+void take_hits(PacketQuery& query, const SearchedScene& searched, std::span<Hit> hits) {
+    decide_main_scene(query);
     LaneMask undecided = 0;
-    for (std::size_t lane = 0; lane < rays.size(); ++lane)
+    for (std::size_t lane = 0; lane < query.rays.size(); ++lane)
         if (query.nearest[lane].undecided())
             undecided |= LaneMask{1} << lane;
         else
@@ -64,10 +61,38 @@ void find_nearest(
         look_again(query, searched, undecided, hits);
 }
 
-void count(PacketQuery& query, std::size_t rays, QueryCounts& counts) {
-    counts += query.counts;
-    counts.rays += rays;
-    query.counts = {};
+void take_transmitted(PacketQuery& query, std::span<Color> transmitted) {
+    decide_main_scene(query);
+    for (std::size_t lane = 0; lane < query.rays.size(); ++lane)
+        transmitted[lane] = query.transmittance[lane].transmitted();
+}
+
+/// Searches packet by packet, and finishes each while the next one's memory is on its way:
+/// begin(query, rays), finish(query, first).
+template <typename Begin, typename Finish>
+void for_each_packet(
+    const SearchedScene& searched,
+    std::span<const QueryRay> rays,
+    QueryCounts& counts,
+    const Begin& begin,
+    const Finish& finish) {
+    std::array<PacketQuery, 2>& queries = queries_of_this_thread();
+    std::size_t which = 0;
+    for (std::size_t first = 0; first < rays.size(); first += packet_size) {
+        PacketQuery& query = queries[which];
+        begin(query, rays.subspan(first, std::min(packet_size, rays.size() - first)));
+        searched.search(query);
+        which = 1 - which;
+        if (first > 0)
+            finish(queries[which], first - packet_size);
+    }
+    if (!rays.empty())
+        finish(queries[1 - which], (rays.size() - 1) / packet_size * packet_size);
+    counts.rays += rays.size();
+    for (PacketQuery& query : queries) {
+        counts += query.counts;
+        query.counts = {};
+    }
 }
 
 } // namespace
@@ -78,12 +103,15 @@ void find_nearest_hits(
     std::span<Hit> hits,
     QueryCounts& counts) {
     VERA_CHECK(rays.size() == hits.size());
-    PacketQuery& query = query_of_this_thread();
-    for (std::size_t first = 0; first < rays.size(); first += packet_size) {
-        const std::size_t size = std::min(packet_size, rays.size() - first);
-        find_nearest(query, searched, rays.subspan(first, size), hits.subspan(first, size));
-    }
-    count(query, rays.size(), counts);
+    const auto begin = [&](PacketQuery& query, std::span<const QueryRay> packet) {
+        start(query, searched, packet, Purpose::nearest);
+        for (std::size_t lane = 0; lane < packet.size(); ++lane)
+            query.nearest[lane].start(coincidence_reach(packet[lane].ray));
+    };
+    const auto finish = [&](PacketQuery& query, std::size_t first) {
+        take_hits(query, searched, hits.subspan(first, query.rays.size()));
+    };
+    for_each_packet(searched, rays, counts, begin, finish);
 }
 
 void find_transmittances(
@@ -92,18 +120,16 @@ void find_transmittances(
     std::span<Color> transmitted,
     QueryCounts& counts) {
     VERA_CHECK(rays.size() == transmitted.size());
-    PacketQuery& query = query_of_this_thread();
     const Purpose purpose = searched.opaque ? Purpose::any : Purpose::transmittance;
-    for (std::size_t first = 0; first < rays.size(); first += packet_size) {
-        const std::size_t size = std::min(packet_size, rays.size() - first);
-        start(query, searched, rays.subspan(first, size), purpose);
-        for (std::size_t lane = 0; lane < size; ++lane)
+    const auto begin = [&](PacketQuery& query, std::span<const QueryRay> packet) {
+        start(query, searched, packet, purpose);
+        for (std::size_t lane = 0; lane < packet.size(); ++lane)
             query.transmittance[lane].clear();
-        searched.search(query);
-        for (std::size_t lane = 0; lane < size; ++lane)
-            transmitted[first + lane] = query.transmittance[lane].transmitted();
-    }
-    count(query, rays.size(), counts);
+    };
+    const auto finish = [&](PacketQuery& query, std::size_t first) {
+        take_transmitted(query, transmitted.subspan(first, query.rays.size()));
+    };
+    for_each_packet(searched, rays, counts, begin, finish);
 }
 
 } // namespace vera::detail

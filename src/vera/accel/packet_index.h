@@ -18,6 +18,7 @@ struct SearchedScene {
     const Scene* scene = nullptr;
     std::vector<const LocalGeometry*> geometries; ///< of the main scene, then of the subscenes
     bool opaque = false;                          ///< no material lets light through
+    /// Leaves candidates of the main scene to be decided: see decide_main_scene().
     void (*search)(PacketQuery& query) = nullptr;
 };
 

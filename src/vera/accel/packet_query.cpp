@@ -73,6 +73,9 @@ void start_frame(
 
 void set_start_element(const PacketQuery& query, Frame& frame, std::size_t lane) {
     const FaceId& face = query.rays[lane].start;
+    frame.start_element[lane] = no_element;
+    if (face.primitive == no_primitive)
+        return;
     const std::uint64_t start = face.primitive - frame.first_primitive;
     const Geometry& geometry = *frame.local->geometry;
     frame.start_element[lane] = start >= geometry.primitive_count || face.piece == no_piece
@@ -83,12 +86,9 @@ void set_start_element(const PacketQuery& query, Frame& frame, std::size_t lane)
 
 /// Completes a frame whose rays were filled in; returns the lanes that touch the bounds.
 LaneMask entering(PacketQuery& query, Frame& frame, LaneMask lanes) {
-    const LaneMask touching = place_rays(frame, lanes, query.limit);
-    for (LaneMask rest = touching; rest != 0; rest &= rest - 1) {
-        const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-        frame.limit[lane] = limit_of(query, frame, lane);
-        set_start_element(query, frame, lane);
-    }
+    const LaneMask touching = place_rays(frame, lanes, query.limit, query.local_start);
+    for (LaneMask rest = touching; rest != 0; rest &= rest - 1)
+        set_start_element(query, frame, static_cast<std::size_t>(std::countr_zero(rest)));
     return touching;
 }
 
@@ -149,11 +149,6 @@ bool take_crossing(
 
 } // namespace
 
-std::array<PreparedRay, packet_size> Frame::empty_rays() {
-    const PreparedRay ray{Ray{{}, {1, 0, 0}}};
-    return {ray, ray, ray, ray, ray, ray, ray, ray, ray, ray, ray, ray, ray, ray, ray, ray};
-}
-
 void Mailbox::clear() {
     constexpr std::uint32_t last_to_begin = 0xf0000000U;
     if (last_visit_ > last_to_begin) {
@@ -176,22 +171,14 @@ void Mailbox::grow() {
 
 LaneMask enter_scene(PacketQuery& query) {
     const LocalGeometry& local = *query.geometries.front();
+    Frame& frame = frame_at(query, 0);
+    frame.candidates.count = 0;
     if (local.bounds.empty())
         return 0;
-    Frame& frame = frame_at(query, 0);
     start_frame(query, frame, local, 0);
     frame.depth = 0;
     frame.material = inherited_material;
-    for (std::size_t lane = 0; lane < query.rays.size(); ++lane) {
-        const Ray& ray = query.rays[lane].ray;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            frame.rays.origin[axis][lane] = ray.origin[axis];
-            frame.rays.direction[axis][lane] = ray.direction[axis];
-        }
-        frame.rays.t_min[lane] = ray.t_min;
-        frame.rays.t_max[lane] = ray.t_max;
-        frame.rays.origin_error[lane] = ray.origin_error;
-    }
+    fill_rows(query.rays, frame.rays);
     return entering(query, frame, query.active);
 }
 
@@ -274,12 +261,11 @@ struct CornerPlaces {
     const Vec3* corner[3];
 };
 
-CornerPlaces corner_places(const Geometry& geometry, std::uint32_t element) {
-    if (geometry.items.size() == 1 && geometry.meshes.size() == 1) {
-        const Mesh& mesh = geometry.meshes.front();
-        const Vec3* const positions = mesh.positions.data();
-        const std::uint32_t* const corners =
-            mesh.position_indices.data() + std::size_t{3} * element;
+CornerPlaces corner_places(const LocalGeometry& local, std::uint32_t element) {
+    const Geometry& geometry = *local.geometry;
+    if (local.mesh_corners != nullptr) {
+        const Vec3* const positions = geometry.meshes.front().positions.data();
+        const std::uint32_t* const corners = local.mesh_corners + std::size_t{3} * element;
         return {{positions + corners[0], positions + corners[1], positions + corners[2]}};
     }
     const Element place = element_at(geometry, element);
@@ -308,7 +294,7 @@ void decide_triangles(
     std::array<CornerPlaces, packet_size> places;
     for (LaneMask rest = lanes; rest != 0; rest &= rest - 1) {
         const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-        places[lane] = corner_places(geometry, elements[lane]);
+        places[lane] = corner_places(*frame.local, elements[lane]);
         for (const Vec3* corner : places[lane].corner)
             hwy::Prefetch(corner);
     }
@@ -338,10 +324,8 @@ void decide_triangles(
             number = primitive_number(geometry, place);
             material = resolved(geometry.items[place.item].material, frame.material);
         }
-        if (take_crossing(query, lane, t[lane], {frame.first_primitive + number, 0}, material)) {
+        if (take_crossing(query, lane, t[lane], {frame.first_primitive + number, 0}, material))
             ++query.changes;
-            frame.limit[lane] = std::min(frame.limit[lane], limit_of(query, frame, lane));
-        }
     }
 }
 
@@ -349,34 +333,63 @@ void decide_triangles(
 
 void decide(PacketQuery& query, Frame& frame, LaneMask lanes) {
     Candidates& candidates = frame.candidates;
-    std::array<std::uint8_t, packet_size> done = {};
-    while (lanes != 0) {
-        // The next candidate of each lane.
-        std::array<std::uint32_t, packet_size> elements;
+    while (candidates.count > 0) {
+        std::array<std::uint32_t, packet_size> elements; // their numbers, at first
+        const LaneMask taken = take_candidates(frame, lanes & query.active, elements);
+        if (taken == 0)
+            break;
         LaneMask triangles = 0;
-        for (LaneMask rest = lanes; rest != 0; rest &= rest - 1) {
+        LaneMask others = 0;
+        for (LaneMask rest = taken; rest != 0; rest &= rest - 1) {
             const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-            const LaneMask bit = LaneMask{1} << lane;
-            std::uint8_t i = done[lane];
-            while (i < candidates.count[lane]
-                   && candidates.of_lane[lane][i].near > frame.limit[lane])
-                ++i;
-            done[lane] = static_cast<std::uint8_t>(i + 1);
-            if (i == candidates.count[lane] || (query.active & bit) == 0) {
-                candidates.count[lane] = 0;
-                lanes &= ~bit;
-                continue;
-            }
-            const Candidates::Candidate& candidate = candidates.of_lane[lane][i];
+            const Candidates::Candidate& candidate = candidates.all[elements[lane]];
             elements[lane] = candidate.element;
-            if (candidate.kind == ElementRecord::Kind::triangle)
-                triangles |= bit;
-            else
-                test_exactly(query, frame, candidate.element, bit);
+            const bool triangle = candidate.kind == ElementRecord::Kind::triangle;
+            (triangle ? triangles : others) |= LaneMask{1} << lane;
+        }
+        while (others != 0) {
+            const std::uint32_t element =
+                elements[static_cast<std::size_t>(std::countr_zero(others))];
+            LaneMask same = 0;
+            for (LaneMask rest = others; rest != 0; rest &= rest - 1) {
+                const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+                if (elements[lane] == element)
+                    same |= LaneMask{1} << lane;
+            }
+            test_exactly(query, frame, element, same);
+            others &= ~same;
         }
         if (triangles != 0)
             decide_triangles(query, frame, triangles, elements);
+        LaneMask more = 0;
+        for (std::size_t i = 0; i < candidates.count; ++i)
+            more |= candidates.all[i].lanes;
+        refresh_limits(query, frame, taken & more);
     }
+    // Those of other lanes remain.
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < candidates.count; ++i) {
+        const LaneMask remaining = candidates.all[i].lanes & ~lanes & query.active;
+        if (remaining == 0)
+            continue;
+        candidates.all[kept] = candidates.all[i];
+        candidates.all[kept].lanes = remaining;
+        candidates.near[kept++] = candidates.near[i];
+    }
+    candidates.count = kept;
+}
+
+void fetch_candidates(const Frame& frame) {
+    const Candidates& candidates = frame.candidates;
+    for (std::size_t i = 0; i < candidates.count; ++i)
+        if (candidates.all[i].kind == ElementRecord::Kind::triangle)
+            for (const Vec3* corner : corner_places(*frame.local, candidates.all[i].element).corner)
+                hwy::Prefetch(corner);
+}
+
+void decide_main_scene(PacketQuery& query) {
+    if (!query.frames.empty())
+        decide(query, query.frames.front(), ~LaneMask{0});
 }
 
 void block(PacketQuery& query, Frame& frame, LaneMask lanes) {

@@ -16,10 +16,12 @@
 #include <span>
 #include <vector>
 
+#include <hwy/cache_control.h>
+
 namespace vera::detail {
 
 /// Rays are asked about in packets, which look at a cell together. A set of lanes is a bit mask.
-constexpr std::size_t packet_size = 16;
+constexpr std::size_t packet_size = 32;
 using LaneMask = std::uint32_t;
 
 /// Rays, coordinate by coordinate.
@@ -52,26 +54,29 @@ struct PreparedRows {
     bool made = false;
 };
 
-/// Elements that lanes may meet, and which wait for the test that decides: of each, the local
-/// distance before which it is surely not met.
+/// A child that waits until lanes of a packet come to it, and the local distance before which none
+/// enters its box.
+struct WaitingTogether {
+    TreeChild child;
+    LaneMask lanes = 0;
+    float near = 0;
+};
+
+/// A number for each lane.
+struct alignas(64) FloatRow : std::array<float, packet_size> {};
+
+/// Elements that some lanes may meet, and which wait for the test that decides.
 struct Candidates {
     struct Candidate {
         std::uint32_t element = 0;
-        float near = 0;
+        LaneMask lanes = 0;
         ElementRecord::Kind kind = ElementRecord::Kind::box;
     };
 
-    static constexpr std::size_t most = 8;
-    std::array<std::array<Candidate, most>, packet_size> of_lane;
-    std::array<std::uint8_t, packet_size> count = {};
-};
-
-/// What waits for each lane in a tree of boxes, and for the packet: children of nodes, where the
-/// rays enter their boxes, and, for the packet, the numbers of the nodes.
-struct Waiting {
-    std::vector<TreeChild> children;
-    std::vector<float> near;
-    std::vector<std::uint32_t> parent;
+    static constexpr std::size_t most = 64;
+    std::size_t count = 0;
+    std::array<Candidate, most> all;
+    std::array<FloatRow, most> near; ///< the local distance before which it is surely not met
 };
 
 /// A packet as it visits a geometry: in its coordinates and double precision, for what decides, and
@@ -81,7 +86,7 @@ struct Waiting {
 /// directions. A ray passes within slack of where its single precision form says: that covers the
 /// rounding of both forms, of the element's record, and of the test that decides.
 struct alignas(64) Frame {
-    using Row = std::array<float, packet_size>;
+    using Row = FloatRow;
 
     std::array<Row, 3> origin;
     std::array<Row, 3> direction;
@@ -98,12 +103,12 @@ struct alignas(64) Frame {
     std::uint32_t depth = 0;
     std::uint64_t first_primitive = 0;
     MaterialId material = inherited_material;
-    std::array<PreparedRay, packet_size> prepared = empty_rays();
+    std::array<PreparedRay, packet_size> prepared;
     PreparedRows prepared_rows;
     Candidates candidates;
-    Waiting waiting;
-
-    static std::array<PreparedRay, packet_size> empty_rays();
+    // What waits in a tree of boxes for each lane, and for the packet.
+    std::vector<TreeChild> waiting;
+    std::vector<WaitingTogether> waiting_together;
 };
 
 /// Local distances do not get larger: the bounds' diagonal is less than 4.
@@ -113,15 +118,20 @@ constexpr double farthest = 8;
 /// unit that holds the bounds; the rest is for the tests' own rounding.
 constexpr double least_slack = 0x1p-18;
 
-/// Fills in the local form of the lanes' rays, and the slack; returns the lanes that touch the
-/// bounds. limit says behind which t nothing counts.
-LaneMask place_rays(Frame& frame, LaneMask lanes, const RayRows::Row& limit);
+/// Writes the rays row by row.
+void fill_rows(std::span<const QueryRay> rays, RayRows& rows);
+
+/// Where rays start in local coordinates: where they enter the bounds, or, which is done faster, at
+/// their origins if these are near.
+enum class LocalStart : std::uint8_t { in_bounds, near_bounds };
+
+/// Fills in the local form of the lanes' rays, their limits and the slack; returns the lanes that
+/// may touch the bounds. limit says behind which t nothing counts.
+LaneMask
+place_rays(Frame& frame, LaneMask lanes, const RayRows::Row& limit, LocalStart local_start);
 
 /// The lanes' rays, carried by the map as transformed_ray() does, to the bit.
 void transform_rays(const Affine3& map, const RayRows& rays, RayRows& result);
-
-/// So few rays of a packet are looked at one by one.
-constexpr int few_lanes = 2;
 
 /// Remembers which rays were tested against which element, so that none is twice.
 class Mailbox {
@@ -186,6 +196,7 @@ struct PacketQuery {
     /// Of the main scene, then of the subscenes: what the index made of them.
     std::span<const LocalGeometry* const> geometries;
     Purpose purpose = Purpose::nearest;
+    LocalStart local_start = LocalStart::in_bounds;
     std::span<const QueryRay> rays;
     LaneMask active = 0;       ///< lanes that have no final answer
     std::uint32_t changes = 0; ///< how often a limit or active has changed
@@ -216,29 +227,39 @@ void search_plainly(PacketQuery& query, Frame& frame, std::uint32_t element, Lan
 /// Tests the lanes' rays against the element, which is not a call, in the arithmetic that decides.
 void test_exactly(PacketQuery& query, Frame& frame, std::uint32_t element, LaneMask lanes);
 
-/// Tests the lanes' candidates that lie before their limits in the arithmetic that decides.
+/// Takes over the query's limits, which may have changed.
+void refresh_limits(const PacketQuery& query, Frame& frame, LaneMask lanes);
+
+/// Tests the lanes' candidates that lie before their limits in the arithmetic that decides. Does
+/// not take over the limits that follow: see refresh_limits().
 void decide(PacketQuery& query, Frame& frame, LaneMask lanes);
 
-/// Notes that the lane's ray may meet the element, which is not a call, at no less than the local
-/// distance near.
-inline void add_candidate(
-    PacketQuery& query,
-    Frame& frame,
-    ElementRecord::Kind kind,
-    std::uint32_t element,
-    std::size_t lane,
-    float near) {
+/// Lets the processor fetch what it takes to decide() the frame's candidates.
+void fetch_candidates(const Frame& frame);
+
+/// The same for what has remained undecided when the main scene was searched.
+void decide_main_scene(PacketQuery& query);
+
+/// Lets there be room for one more candidate.
+inline void make_room_for_candidate(PacketQuery& query, Frame& frame) {
+    if (frame.candidates.count == Candidates::most) {
+        decide(query, frame, ~LaneMask{0});
+        refresh_limits(query, frame, ~LaneMask{0});
+    }
+}
+
+/// Notes that the lanes' rays may meet the element, which is not a call, not before the local
+/// distances that stand in the row of near behind the last candidate's. There must be room.
+inline void
+add_candidate(Frame& frame, ElementRecord::Kind kind, std::uint32_t element, LaneMask lanes) {
     Candidates& candidates = frame.candidates;
-    if (candidates.count[lane] == Candidates::most)
-        decide(query, frame, LaneMask{1} << lane);
-    candidates.of_lane[lane][candidates.count[lane]++] = {element, near, kind};
+    candidates.all[candidates.count++] = {element, lanes, kind};
+    if (frame.local->mesh_corners != nullptr)
+        hwy::Prefetch(frame.local->mesh_corners + std::size_t{3} * element);
 }
 
 /// Notes that the lanes' rays, of which only that is asked, meet something.
 void block(PacketQuery& query, Frame& frame, LaneMask lanes);
-
-/// Takes over the query's limits, which may have changed in a subscene.
-void refresh_limits(const PacketQuery& query, Frame& frame, LaneMask lanes);
 
 /// Searches the whole scene, of which the query's geometries are GeometryGrids.
 void search_grids(PacketQuery& query);

@@ -2,8 +2,10 @@
 #include "vera/accel/packet_query.h"
 
 #include <algorithm>
-#include <cmath>
+#include <bit>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "vera/accel/place_rays.cpp"
@@ -45,87 +47,196 @@ struct Placed {
     double slack = 0;
 };
 
-/// The part of a frame from a lane on that fits into a register.
-HWY_INLINE void
-place_part(Frame& frame, const RayRows::Row& limit, std::size_t lane, Placed& placed) {
-    const LocalGeometry& local = *frame.local;
-    const Doubles d;
-    const auto scale = all(local.scale);
+/// The rays of a frame from a lane on, as many as fit into a register: in local coordinates, where
+/// t is as in the world.
+struct LocalRays {
     Vec origin[3];
-    Vec given[3];
-    auto origin_size = hn::Zero(d);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        origin[axis] =
-            hn::Mul(scale, hn::Sub(row(frame.rays.origin[axis], lane), all(local.center[axis])));
-        given[axis] = row(frame.rays.direction[axis], lane);
-        origin_size = hn::Max(origin_size, hn::Abs(origin[axis]));
-    }
-    const auto norm_squared = hn::Add(
-        hn::Add(hn::Mul(given[0], given[0]), hn::Mul(given[1], given[1])),
-        hn::Mul(given[2], given[2]));
-    const auto norm = hn::Sqrt(norm_squared);
-    const auto per_norm = hn::Div(all(1), norm);
-    const auto speed = hn::Mul(norm, scale);
-    const auto slack = hn::Add(
-        all(least_slack + 0x1p-44 * local.scale * local.coordinate_size),
-        hn::Add(
-            hn::Mul(all(0x1p-44), origin_size),
-            hn::Mul(all(2 * local.scale), row(frame.rays.origin_error, lane))));
-    auto near = hn::Mul(row(frame.rays.t_min, lane), speed);
-    auto far = hn::Mul(hn::Min(row(frame.rays.t_max, lane), row(limit, lane)), speed);
+    Vec origin_size;
+    Vec norm; ///< of the direction in the geometry's own coordinates
     Vec direction[3];
+    Vec speed;
+    Vec slack;
+    Vec t_min;
+    Vec t_max;
+};
+
+HWY_INLINE void store_limit(Frame& frame, const LocalRays& rays, Vec start_t, std::size_t lane) {
+    const auto distance =
+        hn::MulAdd(hn::Sub(rays.t_max, start_t), rays.speed, hn::Add(rays.slack, rays.slack));
+    store(hn::Mul(hn::Min(distance, all(farthest)), all(1 + 0x1p-20)), frame.limit, lane);
+}
+
+/// For rays that start near the bounds, and there: single precision is good for their origins.
+HWY_INLINE void place_near(Frame& frame, const LocalRays& rays, std::size_t lane) {
+    const Doubles d;
+    const Floats f;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        direction[axis] = hn::Mul(given[axis], per_norm);
-        const auto size = hn::Max(hn::Abs(direction[axis]), all(1e-20));
-        const auto inverse = hn::Div(all(1), hn::CopySign(size, direction[axis]));
+        const auto direction = hn::DemoteTo(f, rays.direction[axis]);
+        const auto size = hn::Max(hn::Abs(direction), hn::Set(f, 1e-20F));
+        hn::StoreU(direction, f, frame.direction[axis].data() + lane);
+        hn::StoreU(
+            hn::Div(hn::Set(f, 1), hn::CopySign(size, direction)),
+            f,
+            frame.inverse[axis].data() + lane);
+        store(rays.origin[axis], frame.origin[axis], lane);
+    }
+    hn::StoreU(hn::Zero(d), d, frame.start_t.data() + lane);
+    store_limit(frame, rays, hn::Zero(d), lane);
+}
+
+/// For all others: they are let start where they enter the bounds.
+HWY_INLINE hn::Mask<Doubles> place_far(Frame& frame, const LocalRays& rays, std::size_t lane) {
+    const Doubles d;
+    const LocalGeometry& local = *frame.local;
+    auto near = hn::Mul(rays.t_min, rays.speed);
+    auto far = hn::Mul(rays.t_max, rays.speed);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto size = hn::Max(hn::Abs(rays.direction[axis]), all(1e-20));
+        const auto inverse = hn::Div(all(1), hn::CopySign(size, rays.direction[axis]));
         const auto lower =
-            hn::Sub(hn::Sub(all(local.local_bounds.lower[axis]), slack), origin[axis]);
+            hn::Sub(hn::Sub(all(local.local_bounds.lower[axis]), rays.slack), rays.origin[axis]);
         const auto upper =
-            hn::Sub(hn::Add(all(local.local_bounds.upper[axis]), slack), origin[axis]);
+            hn::Sub(hn::Add(all(local.local_bounds.upper[axis]), rays.slack), rays.origin[axis]);
         const auto at_lower = hn::Mul(lower, inverse);
         const auto at_upper = hn::Mul(upper, inverse);
         near = hn::Max(near, hn::Min(at_lower, at_upper));
         far = hn::Min(far, hn::Max(at_lower, at_upper));
-        store(direction[axis], frame.direction[axis], lane);
+        store(rays.direction[axis], frame.direction[axis], lane);
         store(inverse, frame.inverse[axis], lane);
     }
     for (std::size_t axis = 0; axis < 3; ++axis)
-        store(hn::Add(origin[axis], hn::Mul(near, direction[axis])), frame.origin[axis], lane);
-    hn::StoreU(hn::Div(near, speed), d, frame.start_t.data() + lane);
-    hn::StoreU(speed, d, frame.speed.data() + lane);
+        store(
+            hn::Add(rays.origin[axis], hn::Mul(near, rays.direction[axis])),
+            frame.origin[axis],
+            lane);
+    const auto start_t = hn::Div(near, rays.speed);
+    hn::StoreU(start_t, d, frame.start_t.data() + lane);
+    store_limit(frame, rays, start_t, lane);
+    return hn::Le(near, hn::Add(far, rays.slack));
+}
+
+/// Fills in the part of a frame from a lane on that fits into a register.
+HWY_INLINE void place_part(
+    Frame& frame,
+    const RayRows::Row& limit,
+    LocalStart local_start,
+    LaneMask lanes,
+    std::size_t lane,
+    Placed& placed) {
+    const LocalGeometry& local = *frame.local;
+    const Doubles d;
+    const auto scale = all(local.scale);
+    LocalRays rays = {
+        {hn::Zero(d), hn::Zero(d), hn::Zero(d)},
+        hn::Zero(d),
+        hn::Zero(d),
+        {hn::Zero(d), hn::Zero(d), hn::Zero(d)},
+        hn::Zero(d),
+        hn::Zero(d),
+        row(frame.rays.t_min, lane),
+        hn::Min(row(frame.rays.t_max, lane), row(limit, lane))};
+    Vec given[3] = {
+        row(frame.rays.direction[0], lane),
+        row(frame.rays.direction[1], lane),
+        row(frame.rays.direction[2], lane)};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        rays.origin[axis] =
+            hn::Mul(scale, hn::Sub(row(frame.rays.origin[axis], lane), all(local.center[axis])));
+        rays.origin_size = hn::Max(rays.origin_size, hn::Abs(rays.origin[axis]));
+    }
+    const auto norm_squared = hn::Add(
+        hn::Add(hn::Mul(given[0], given[0]), hn::Mul(given[1], given[1])),
+        hn::Mul(given[2], given[2]));
+    rays.norm = hn::Sqrt(norm_squared);
+    const auto per_norm = hn::Div(all(1), rays.norm);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        rays.direction[axis] = hn::Mul(given[axis], per_norm);
+    rays.speed = hn::Mul(rays.norm, scale);
+    rays.slack = hn::Add(
+        all(least_slack + 0x1p-44 * local.scale * local.coordinate_size),
+        hn::Add(
+            hn::Mul(all(0x1p-44), rays.origin_size),
+            hn::Mul(all(2 * local.scale), row(frame.rays.origin_error, lane))));
+    hn::StoreU(rays.speed, d, frame.speed.data() + lane);
 
     // Squares outside of these bounds have lost digits.
     const auto usual = hn::And(
         hn::And(hn::Gt(norm_squared, all(1e-280)), hn::Lt(norm_squared, all(1e280))),
-        hn::And(hn::Gt(speed, all(1e-280)), hn::Lt(origin_size, all(1e280))));
-    const auto touching = hn::And(usual, hn::Le(near, hn::Add(far, slack)));
-    placed.touching |= bits(touching, lane);
+        hn::And(hn::Gt(rays.speed, all(1e-280)), hn::Lt(rays.origin_size, all(1e280))));
+    // What lies between the origin and t_min is looked at in vain, but that is little.
+    const auto near = hn::And(
+        hn::Lt(rays.origin_size, all(2)),
+        hn::And(hn::Ge(rays.t_min, hn::Zero(d)), hn::Lt(hn::Mul(rays.t_min, rays.speed), all(1))));
+    const LaneMask part = lanes >> lane & ((LaneMask{1} << hn::Lanes(d)) - 1);
+    LaneMask touching = bits(usual, lane);
+    if (local_start == LocalStart::near_bounds && (bits(hn::Not(near), 0) & part) == 0)
+        place_near(frame, rays, lane);
+    else
+        touching &= bits(place_far(frame, rays, lane), lane);
+    placed.touching |= touching;
     placed.strange |= bits(hn::Not(usual), lane);
-    const auto counted = hn::IfThenElseZero(touching, slack);
-    placed.slack = std::max(placed.slack, hn::GetLane(hn::MaxOfLanes(d, counted)));
+    std::uint8_t counted[8] = {static_cast<std::uint8_t>((touching & lanes) >> lane)};
+    const auto counted_slack = hn::IfThenElseZero(hn::LoadMaskBits(d, counted), rays.slack);
+    placed.slack = std::max(placed.slack, hn::GetLane(hn::MaxOfLanes(d, counted_slack)));
 }
 
-LaneMask place_rays_kernel(Frame& frame, LaneMask lanes, const RayRows::Row& limit) {
+LaneMask
+place_rays_kernel(Frame& frame, LaneMask lanes, const RayRows::Row& limit, LocalStart local_start) {
     Placed placed;
     for (std::size_t lane = 0; lane < packet_size; lane += hn::Lanes(Doubles()))
         if ((lanes >> lane & ((LaneMask{1} << hn::Lanes(Doubles())) - 1)) != 0)
-            place_part(frame, limit, lane, placed);
+            place_part(frame, limit, local_start, lanes, lane, placed);
     frame.slack = static_cast<float>(std::max(placed.slack * (1 + 0x1p-20), least_slack));
     placed.strange &= lanes;
-    for (std::size_t lane = 0; lane < packet_size; ++lane) {
-        if ((placed.strange >> lane & 1U) == 0)
-            continue;
+    for (LaneMask rest = placed.strange; rest != 0; rest &= rest - 1) {
+        const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
         // A ray that cannot be followed is let meet everything.
         for (std::size_t axis = 0; axis < 3; ++axis) {
             frame.origin[axis][lane] = 0;
             frame.direction[axis][lane] = axis == 0 ? 1 : 0;
             frame.inverse[axis][lane] = axis == 0 ? 1 : 1e20F;
         }
+        frame.limit[lane] = static_cast<float>(farthest);
         frame.start_t[lane] = 0;
         frame.speed[lane] = 0;
         frame.slack = 64;
     }
     return (placed.touching & lanes) | placed.strange;
+}
+
+/// Two numbers of each of two rays, which stand side by side there, to two rows.
+HWY_INLINE void fill_two(const double* first, const double* second, double* row, double* next_row) {
+#if HWY_TARGET == HWY_SCALAR
+    row[0] = first[0];
+    row[1] = second[0];
+    next_row[0] = first[1];
+    next_row[1] = second[1];
+#else
+    const hn::FixedTag<double, 2> d;
+    const auto a = hn::LoadU(d, first);
+    const auto b = hn::LoadU(d, second);
+    hn::StoreU(hn::InterleaveLower(d, a, b), d, row);
+    hn::StoreU(hn::InterleaveUpper(d, a, b), d, next_row);
+#endif
+}
+
+void fill_rows_kernel(std::span<const QueryRay> rays, RayRows& rows) {
+    static_assert(offsetof(Ray, direction) == 3 * sizeof(double));
+    static_assert(offsetof(Ray, t_min) == 6 * sizeof(double));
+    static_assert(offsetof(Ray, t_max) == 7 * sizeof(double));
+    for (std::size_t lane = 0; lane < rays.size(); lane += 2) {
+        const Ray& a = rays[lane].ray;
+        // The last one may stand alone; there is room for it twice.
+        const Ray& b = rays[std::min(lane + 1, rays.size() - 1)].ray;
+        const double* const first = &a.origin.x;
+        const double* const second = &b.origin.x;
+        fill_two(first, second, &rows.origin[0][lane], &rows.origin[1][lane]);
+        fill_two(first + 2, second + 2, &rows.origin[2][lane], &rows.direction[0][lane]);
+        fill_two(first + 4, second + 4, &rows.direction[1][lane], &rows.direction[2][lane]);
+        fill_two(first + 6, second + 6, &rows.t_min[lane], &rows.t_max[lane]);
+        rows.origin_error[lane] = a.origin_error;
+        rows.origin_error[lane + 1] = b.origin_error;
+    }
 }
 
 void transform_rays_kernel(const Affine3& map, const RayRows& rays, RayRows& result) {
@@ -179,9 +290,15 @@ namespace vera::detail {
 
 HWY_EXPORT(place_rays_kernel);
 HWY_EXPORT(transform_rays_kernel);
+HWY_EXPORT(fill_rows_kernel);
 
-LaneMask place_rays(Frame& frame, LaneMask lanes, const RayRows::Row& limit) {
-    return HWY_DYNAMIC_DISPATCH(place_rays_kernel)(frame, lanes, limit);
+void fill_rows(std::span<const QueryRay> rays, RayRows& rows) {
+    HWY_DYNAMIC_DISPATCH(fill_rows_kernel)(rays, rows);
+}
+
+LaneMask
+place_rays(Frame& frame, LaneMask lanes, const RayRows::Row& limit, LocalStart local_start) {
+    return HWY_DYNAMIC_DISPATCH(place_rays_kernel)(frame, lanes, limit, local_start);
 }
 
 void transform_rays(const Affine3& map, const RayRows& rays, RayRows& result) {

@@ -23,9 +23,9 @@ namespace vera::detail {
 /// one lies in it as well.
 class NearestSearch {
 public:
-    /// Begins anew, for this ray.
-    void start(const Ray& world_ray) {
-        ray_ = &world_ray;
+    /// Begins anew, for a ray of the world of which coincidence_reach() is this.
+    void start(double reach) {
+        reach_ = reach;
         smallest_t_ = std::numeric_limits<double>::infinity();
         limit_ = smallest_t_;
         count_ = 0;
@@ -39,7 +39,7 @@ public:
             smallest_t_ = t;
             // Twice the tolerance, so that no rounding of the sum makes a later window end behind
             // what was left out because of this one.
-            limit_ = t + 2 * coincidence_tolerance(*ray_, t);
+            limit_ = t + 2 * coincidence_tolerance(reach_, t);
         }
         keep({t, face});
     }
@@ -51,13 +51,13 @@ public:
     /// again with a WindowSearch.
     bool undecided() const { return overflowed_; }
 
-    double window_end() const { return smallest_t_ + coincidence_tolerance(*ray_, smallest_t_); }
+    double window_end() const { return smallest_t_ + coincidence_tolerance(reach_, smallest_t_); }
 
     /// Only where not undecided.
     Hit hit() const {
         Hit result;
-        if (count_ == 0)
-            return result;
+        if (count_ <= 1)
+            return count_ == 0 ? result : candidates_[0];
         const double end = window_end();
         for (std::size_t i = 0; i < count_; ++i)
             if (candidates_[i].t <= end && candidates_[i].face < result.face)
@@ -83,7 +83,7 @@ private:
         count_ = kept + 1;
     }
 
-    const Ray* ray_ = nullptr;
+    double reach_ = 0;
     double smallest_t_ = std::numeric_limits<double>::infinity();
     double limit_ = std::numeric_limits<double>::infinity();
     std::array<Hit, 4> candidates_ = {};

@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 namespace vera::detail {
 
@@ -51,7 +52,8 @@ struct Range {
     std::size_t first = 0;
     std::size_t last = 0;
     BoxF box;
-    BoxF middles; ///< of their doubled middles
+    BoxF middles;      ///< of their doubled middles
+    float content = 0; ///< the surfaces of their boxes
 
     std::size_t size() const { return last - first; }
 };
@@ -167,26 +169,29 @@ void set_box(WideNode& node, std::size_t child, const BoxF& box) {
     }
 }
 
-/// Notes in which turn rays of each octant come to the node's children: by where the middles of
-/// their boxes lie along the octant's diagonal.
-void set_order(WideNode& node, std::size_t count) {
-    for (std::size_t octant = 0; octant < octant_count; ++octant) {
+/// Notes in which order rays come to the node's children, of which there are count. Those of an
+/// octant come to them by where the middles of the boxes lie along the octant's diagonal; those
+/// that ask for anything come first to the ones that are the fullest.
+void set_orders(WideNode& node, std::size_t count, const std::array<float, tree_width>& fullness) {
+    for (std::size_t order = 0; order <= any_order; ++order) {
         std::array<float, tree_width> place = {};
-        std::array<std::size_t, tree_width> order = {};
+        std::array<std::size_t, tree_width> last_first = {};
         for (std::size_t i = 0; i < tree_width; ++i) {
-            order[i] = i;
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                const float middle = node.planes[axis][i] + node.planes[3 + axis][i];
-                place[i] += (octant >> axis & 1U) != 0 ? -middle : middle;
-            }
+            last_first[i] = i;
+            if (order == any_order)
+                place[i] = -fullness[i];
+            else
+                for (std::size_t axis = 0; axis < 3; ++axis) {
+                    const float middle = node.planes[axis][i] + node.planes[3 + axis][i];
+                    place[i] += (order >> axis & 1U) != 0 ? -middle : middle;
+                }
         }
         std::stable_sort(
-            order.begin(),
-            order.begin() + static_cast<std::ptrdiff_t>(count),
-            [&](std::size_t a, std::size_t b) { return place[a] < place[b]; });
+            last_first.begin(),
+            last_first.begin() + static_cast<std::ptrdiff_t>(count),
+            [&](std::size_t a, std::size_t b) { return place[a] > place[b]; });
         for (std::size_t i = 0; i < tree_width; ++i)
-            node.children[i].bits |= std::uint64_t{order[i]}
-                << (TreeChild::order_shift + TreeChild::order_width * octant);
+            node.children[i].set_order(order, last_first[i]);
     }
 }
 
@@ -225,6 +230,7 @@ private:
         range.last = last;
         for (std::size_t i = first; i < last; ++i) {
             include(range.box, references_[i].box);
+            range.content += surface(references_[i].box);
             for (std::size_t axis = 0; axis < 3; ++axis) {
                 const float place = middle(references_[i], axis);
                 range.middles.lower[axis] = std::min(range.middles.lower[axis], place);
@@ -322,13 +328,15 @@ private:
         const std::size_t number = output.nodes.size();
         output.nodes.push_back(empty_node());
         WideNode node = empty_node();
+        std::array<float, tree_width> fullness = {};
         for (std::size_t i = 0; i < children.size(); ++i) {
             const Range& child = children[i];
             set_box(node, i, child.box);
+            fullness[i] = surface(child.box) > 0 ? child.content / surface(child.box) : infinite;
             if (is_leaf(child)) {
-                node.children[i] = TreeChild::of(
+                node.children[i] = TreeChild::block(
                     add_block(output, child),
-                    block_kind(references_[child.first].kind),
+                    static_cast<std::uint64_t>(references_[child.first].kind),
                     child.size());
                 continue;
             }
@@ -337,9 +345,9 @@ private:
                 deferred->push_back({number, i, depth + 1, child});
             else
                 below = build_node(output, child, depth + 1, deferred, deferred_size);
-            node.children[i] = TreeChild::of(below, ChildKind::node, 0);
+            node.children[i] = TreeChild::node(below);
         }
-        set_order(node, children.size());
+        set_orders(node, children.size(), fullness);
         output.nodes[number] = node;
         return number;
     }
@@ -366,7 +374,7 @@ private:
         return children;
     }
 
-    std::uint32_t add_block(Output& output, const Range& range) const {
+    std::size_t add_block(Output& output, const Range& range) const {
         const ElementRecord::Kind kind = references_[range.first].kind;
         const std::size_t first = output.rows.size();
         const std::size_t values = value_count(kind);
@@ -380,7 +388,7 @@ private:
             for (std::size_t value = 0; value < values; ++value)
                 output.rows[first + 1 + value][i] = record.values[value];
         }
-        return static_cast<std::uint32_t>(first);
+        return first;
     }
 
     static Box3 box_of(const Reference& reference) {
@@ -400,8 +408,10 @@ private:
             nodes += output.nodes.size();
             rows += output.rows.size();
         }
-        VERA_CHECK(nodes <= std::numeric_limits<std::uint32_t>::max());
-        VERA_CHECK(rows <= std::numeric_limits<std::uint32_t>::max());
+        if (nodes > TreeChild::most || rows > TreeChild::most)
+            throw std::runtime_error(
+                "more primitives in one scene or subscene than the hierarchy of boxes can number; "
+                "move parts of it into subscenes, or use --index grid");
         top.nodes.reserve(nodes);
         top.rows.reserve(rows);
         for (std::size_t i = 0; i < outputs.size(); ++i) {
@@ -411,8 +421,7 @@ private:
             top.nodes[deferred[i].node].children[deferred[i].child].bits += first_node;
             for (WideNode& node : output.nodes) {
                 for (TreeChild& child : node.children)
-                    if (child.kind() != ChildKind::none)
-                        child.bits += child.kind() == ChildKind::node ? first_node : first_row;
+                    child.bits += child.is_block() != 0 ? first_row : first_node;
                 top.nodes.push_back(node);
             }
             top.rows.insert(top.rows.end(), output.rows.begin(), output.rows.end());

@@ -12,20 +12,6 @@
 
 namespace vera::detail {
 
-/// Elements of a leaf's block.
-constexpr std::size_t block_width = 4;
-
-/// What a child of a node is: none, another node, or a block of elements of one kind.
-struct ChildKind {
-    static constexpr std::uint8_t none = 0;
-    static constexpr std::uint8_t node = 1;
-    static constexpr std::uint8_t first_block = 8; ///< and ElementRecord::Kind on top
-};
-
-constexpr std::uint8_t block_kind(ElementRecord::Kind kind) {
-    return static_cast<std::uint8_t>(ChildKind::first_block + static_cast<std::uint8_t>(kind));
-}
-
 /// A node: the boxes of its children in local coordinates, and what these are. Planes 0 to 2 bound
 /// the boxes from below along each axis, planes 3 to 5 from above. The boxes of absent children,
 /// which stand behind the others, are empty.

@@ -15,20 +15,31 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 
 namespace vera {
 
+/// How large the coordinates of a ray's origin are, in units of its t.
+inline double coincidence_reach(const Ray& ray) {
+    const double direction_size = max_component(abs(ray.direction));
+    const double origin_size = max_component(abs(ray.origin)) + ray.origin_error;
+    return direction_size > 0 ? origin_size / direction_size
+                              : -std::numeric_limits<double>::infinity();
+}
+
 /// Hits of one ray whose t differ by no more than this, at t, are hits of surfaces that coincide:
 /// the one that stands first in the text is in front. It follows from the rounding of coordinates
 /// of the size of those where the ray passes, and scales with the scene.
-inline double coincidence_tolerance(const Ray& ray, double t) {
+inline double coincidence_tolerance(double reach, double t) {
     // Rounding moves t by a few units of 2^-53 of the coordinates over the cosine of incidence;
     // 2^-41 allows for cosines down to 1/500.
-    const double direction_size = max_component(abs(ray.direction));
-    const double origin_size = max_component(abs(ray.origin)) + ray.origin_error;
-    return direction_size > 0 ? 0x1p-41 * (origin_size / direction_size + std::abs(t)) : 0;
+    return reach >= 0 ? 0x1p-41 * (reach + std::abs(t)) : 0;
+}
+
+inline double coincidence_tolerance(const Ray& ray, double t) {
+    return coincidence_tolerance(coincidence_reach(ray), t);
 }
 
 inline std::array<Vec3, 3> corners_of(const Mesh& mesh, std::uint32_t triangle) {

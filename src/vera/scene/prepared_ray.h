@@ -26,6 +26,8 @@ struct PreparedRay {
     double direction_z = 1;
     double origin_size = 0; ///< the largest coordinate of the origin, without its sign
 
+    PreparedRay() = default;
+
     explicit PreparedRay(const Ray& given)
         : ray(given)
         , origin_size(max_component(abs(given.origin))) {
