@@ -256,6 +256,64 @@ TEST_P(EveryIndex, DecidesLikeBruteForceOnRaysThatPassOutlinesClosely) {
     }
 }
 
+/// Shapes of one kind, one behind the other at less than the steps of single precision, in any
+/// order.
+Scene layers(ItemKind kind, std::mt19937_64& random) {
+    constexpr std::uint32_t count = 40;
+    Scene scene;
+    Geometry& geometry = scene.geometry;
+    const Vec3 middle = {0.3, 0.1, -0.2};
+    const Vec3 axis = normalized(Vec3{1, 2, 0.5});
+    const Vec3 aside = normalized(cross(axis, {0, 0, 1}));
+    const Vec3 normal = cross(axis, aside);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const double off = 0x1p-22 * static_cast<double>(random() % count);
+        const Vec3 corner = middle + off * normal;
+        // Some are slivers.
+        const double width = i % 3 == 0 ? 0x1p-9 : 1;
+        const std::vector<Vec3> corners = {
+            corner,
+            corner + axis,
+            corner + 0.75 * axis + 1.25 * width * aside,
+            corner + width * aside};
+        if (kind == ItemKind::sphere)
+            geometry.spheres.push_back({corner, 0.5 + 0.5 * off});
+        else if (kind == ItemKind::triangle)
+            geometry.triangles.push_back({{corners[0], corners[1], corners[3]}});
+        else {
+            geometry.polygons.push_back(
+                {.first_corner = 4 * i, .corner_count = 4, .normal = normal});
+            geometry.corners.insert(geometry.corners.end(), corners.begin(), corners.end());
+        }
+        geometry.items.push_back({.kind = kind, .index = i});
+    }
+    number_primitives(scene);
+    return scene;
+}
+
+TEST_P(EveryIndex, FindsTheFirstOfLayersCloserThanSinglePrecision) {
+    std::mt19937_64 random(23);
+    const auto number = [&](double size) {
+        return size * (static_cast<double>(random() % 2001) / 1000 - 1);
+    };
+    for (const ItemKind kind : {ItemKind::sphere, ItemKind::triangle, ItemKind::polygon}) {
+        const Scene scene = layers(kind, random);
+        std::vector<QueryRay> rays;
+        for (int i = 0; i < 2000; ++i) {
+            // From near and far, also along the layers and from within the spheres.
+            const double distance = std::array{0.01, 0.4, 3.0, 60.0}[random() % 4];
+            const Vec3 target = {0.5 + number(0.5), 0.5 + number(0.5), number(0.2)};
+            QueryRay query;
+            query.ray.origin = target
+                + distance * Vec3{number(1), number(1), i % 2 == 0 ? number(1) : number(0.01)};
+            query.ray.direction = target - query.ray.origin;
+            rays.push_back(query);
+        }
+        expect_like_brute_force(
+            scene, *make(scene), rays, "layers of kind " + std::to_string(static_cast<int>(kind)));
+    }
+}
+
 TEST_P(EveryIndex, HoldsSubscenesNestedTenThousandDeep) {
     Scene scene;
     constexpr std::uint32_t levels = 10'000;

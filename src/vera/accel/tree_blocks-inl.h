@@ -17,6 +17,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <type_traits>
 
 #include <hwy/highway.h>
 
@@ -156,33 +157,65 @@ HWY_INLINE void values_of_one(
         values[j] = hn::Set(d, j < count ? rows[1 + j][i] : 0);
 }
 
-HWY_NOINLINE void meet_other_element(
+/// How the lanes' rays meet element i of a block of the kind.
+template <ElementRecord::Kind kind>
+HWY_NOINLINE void meet_element(
     const BlockRow* rows,
-    ElementRecord::Kind kind,
     std::size_t i,
     const Frame& frame,
+    LaneMask lanes,
     MetRows<packet_size>& met) {
     const Lanes d;
-    hn::Vec<Lanes> values[most_values];
-    values_of_one(d, rows, i, value_count(kind), values);
-    for (std::size_t lane = 0; lane < packet_size; lane += hn::Lanes(d))
-        take_meeting(d, meeting(d, rays_from(d, frame, lane), kind, values), lane, met);
+    hn::Vec<Lanes> values[value_count(kind)];
+    for (std::size_t j = 0; j < value_count(kind); ++j)
+        values[j] = hn::Set(d, rows[1 + j][i]);
+    for (std::size_t lane = 0; lane < packet_size; lane += hn::Lanes(d)) {
+        if (!any_from(d, lanes, lane))
+            continue;
+        const auto rays = rays_from(d, frame, lane);
+        // Most are passed by.
+        if ((bits_of(d, may_meet(d, rays, kind, values)) & lanes >> lane) != 0)
+            take_meeting(d, meeting(d, rays, kind, values), lane, met);
+    }
 }
 
-HWY_NOINLINE void meet_other_block(
+/// How one lane's ray meets the present elements of a block of the kind.
+template <ElementRecord::Kind kind>
+HWY_NOINLINE void meet_block(
     const BlockRow* rows,
-    ElementRecord::Kind kind,
+    std::uint32_t present,
     const Frame& frame,
     std::size_t lane,
     MetRows<block_width>& met) {
     const Elements d;
-    const std::size_t count = value_count(kind);
     const auto ray = one_ray(d, frame, lane);
     for (std::size_t i = 0; i < block_width; i += hn::Lanes(d)) {
-        hn::Vec<Elements> values[most_values];
-        for (std::size_t j = 0; j < most_values; ++j)
-            values[j] = j < count ? hn::LoadU(d, rows[1 + j].data() + i) : hn::Zero(d);
-        take_meeting(d, meeting(d, ray, kind, values), i, met);
+        hn::Vec<Elements> values[value_count(kind)];
+        for (std::size_t j = 0; j < value_count(kind); ++j)
+            values[j] = hn::LoadU(d, rows[1 + j].data() + i);
+        if ((bits_of(d, may_meet(d, ray, kind, values)) & present >> i) != 0)
+            take_meeting(d, meeting(d, ray, kind, values), i, met);
+    }
+}
+
+/// Calls action(the kind as a constant), for all kinds but triangles.
+template <typename Action>
+HWY_INLINE void for_other_kind(ElementRecord::Kind kind, const Action& action) {
+    using Kind = ElementRecord::Kind;
+    switch (kind) {
+    case Kind::sphere:
+        return action(std::integral_constant<Kind, Kind::sphere>());
+    case Kind::quadrangle:
+        return action(std::integral_constant<Kind, Kind::quadrangle>());
+    case Kind::mantle:
+        return action(std::integral_constant<Kind, Kind::mantle>());
+    case Kind::cylinder:
+        return action(std::integral_constant<Kind, Kind::cylinder>());
+    case Kind::box:
+    case Kind::call: // of which is asked the same
+        return action(std::integral_constant<Kind, Kind::box>());
+    case Kind::triangle:
+        break;
     }
 }
 
@@ -287,7 +320,9 @@ inline void visit_block(PacketQuery& query, Frame& frame, const TreeChild& block
         if (kind == ElementRecord::Kind::triangle) {
             meet_triangle(triangles, i, frame, lanes, met);
         } else {
-            meet_other_element(rows, kind, i, frame, met);
+            for_other_kind(kind, [&](auto constant) {
+                meet_element<constant.value>(rows, i, frame, lanes, met);
+            });
         }
         const std::uint32_t element = element_number(rows, i);
         LaneMask may = met.may & lanes;
@@ -340,7 +375,9 @@ visit_block_alone(PacketQuery& query, Frame& frame, const TreeChild& block, std:
                 d, meeting_face(d, ray, triangle_place(d, ray, face_of(d, values))), i, met);
         }
     } else {
-        meet_other_block(rows, kind, frame, lane, met);
+        for_other_kind(kind, [&](auto constant) {
+            meet_block<constant.value>(rows, present, frame, lane, met);
+        });
     }
     std::uint32_t may = met.may & present;
     if (kind == ElementRecord::Kind::call) {
