@@ -158,7 +158,7 @@ HWY_INLINE void values_of_one(
 }
 
 /// How the lanes' rays meet element i of a block of the kind.
-template <ElementRecord::Kind kind>
+template <ElementRecord::Kind OfKind>
 HWY_NOINLINE void meet_element(
     const BlockRow* rows,
     std::size_t i,
@@ -166,21 +166,21 @@ HWY_NOINLINE void meet_element(
     LaneMask lanes,
     MetRows<packet_size>& met) {
     const Lanes d;
-    hn::Vec<Lanes> values[value_count(kind)];
-    for (std::size_t j = 0; j < value_count(kind); ++j)
+    hn::Vec<Lanes> values[value_count(OfKind)];
+    for (std::size_t j = 0; j < value_count(OfKind); ++j)
         values[j] = hn::Set(d, rows[1 + j][i]);
     for (std::size_t lane = 0; lane < packet_size; lane += hn::Lanes(d)) {
         if (!any_from(d, lanes, lane))
             continue;
         const auto rays = rays_from(d, frame, lane);
         // Most are passed by.
-        if ((bits_of(d, may_meet(d, rays, kind, values)) & lanes >> lane) != 0)
-            take_meeting(d, meeting(d, rays, kind, values), lane, met);
+        if ((bits_of(d, may_meet(d, rays, OfKind, values)) & lanes >> lane) != 0)
+            take_meeting(d, meeting(d, rays, OfKind, values), lane, met);
     }
 }
 
 /// How one lane's ray meets the present elements of a block of the kind.
-template <ElementRecord::Kind kind>
+template <ElementRecord::Kind OfKind>
 HWY_NOINLINE void meet_block(
     const BlockRow* rows,
     std::uint32_t present,
@@ -190,11 +190,11 @@ HWY_NOINLINE void meet_block(
     const Elements d;
     const auto ray = one_ray(d, frame, lane);
     for (std::size_t i = 0; i < block_width; i += hn::Lanes(d)) {
-        hn::Vec<Elements> values[value_count(kind)];
-        for (std::size_t j = 0; j < value_count(kind); ++j)
+        hn::Vec<Elements> values[value_count(OfKind)];
+        for (std::size_t j = 0; j < value_count(OfKind); ++j)
             values[j] = hn::LoadU(d, rows[1 + j].data() + i);
-        if ((bits_of(d, may_meet(d, ray, kind, values)) & present >> i) != 0)
-            take_meeting(d, meeting(d, ray, kind, values), i, met);
+        if ((bits_of(d, may_meet(d, ray, OfKind, values)) & present >> i) != 0)
+            take_meeting(d, meeting(d, ray, OfKind, values), i, met);
     }
 }
 
@@ -220,7 +220,7 @@ HWY_INLINE void for_other_kind(ElementRecord::Kind kind, const Action& action) {
 }
 
 /// The lanes whose rays surely do not meet element i of the block again, if they start on it.
-HWY_NOINLINE LaneMask
+inline HWY_NOINLINE LaneMask
 leaving_element(const BlockRow* rows, ElementRecord::Kind kind, std::size_t i, const Frame& frame) {
     const Lanes d;
     hn::Vec<Lanes> values[most_values];
@@ -232,7 +232,7 @@ leaving_element(const BlockRow* rows, ElementRecord::Kind kind, std::size_t i, c
 }
 
 /// The same for one lane.
-HWY_NOINLINE bool leaves_element(
+inline HWY_NOINLINE bool leaves_element(
     const BlockRow* rows,
     ElementRecord::Kind kind,
     std::size_t i,
@@ -256,8 +256,10 @@ HWY_INLINE LaneMask starting_on(const Frame& frame, std::uint32_t element) {
 }
 
 /// Tests the lanes' rays against what the call holds.
-HWY_NOINLINE void
+inline HWY_NOINLINE void
 visit_call(PacketQuery& query, Frame& frame, std::uint32_t element, LaneMask lanes) {
+    if (lanes == 0)
+        return;
     decide(query, frame, lanes);
     refresh_limits(query, frame, lanes);
     lanes &= query.active;
@@ -308,62 +310,94 @@ constexpr bool may_wait(Purpose purpose, ElementRecord::Kind kind) {
     return false;
 }
 
+/// Takes what is known of how the lanes' rays meet element i, which is not a call.
+inline void take_met(
+    PacketQuery& query,
+    Frame& frame,
+    const BlockRow* rows,
+    ElementRecord::Kind kind,
+    std::size_t i,
+    LaneMask lanes,
+    const MetRows<packet_size>& met) {
+    LaneMask may = met.may & lanes;
+    if (may == 0)
+        return;
+    const std::uint32_t element = element_number(rows, i);
+    const LaneMask starting = starting_on(frame, element);
+    if ((may & starting) != 0)
+        may &= ~(starting & leaving_element(rows, kind, i, frame));
+    const LaneMask sure = met.sure & may & ~starting;
+    if (query.purpose == Purpose::any) {
+        block(query, frame, sure);
+        may &= ~sure;
+    } else if (query.purpose == Purpose::nearest) {
+        lower_limits(frame, sure, met.far);
+    }
+    if (!may_wait(query.purpose, kind))
+        return test_exactly(query, frame, element, may);
+    make_room_for_candidate(query, frame);
+    copy(met.near, frame.candidates.near[frame.candidates.count]);
+    add_candidate(frame, kind, element, may);
+}
+
 /// What the lanes' rays do at a block.
-inline void visit_block(PacketQuery& query, Frame& frame, const TreeChild& block, LaneMask lanes) {
-    const BlockRow* const rows = tree_of(frame).rows.data() + block.first();
-    const ElementRecord::Kind kind = element_kind(block);
+inline void visit_block(PacketQuery& query, Frame& frame, const TreeChild& child, LaneMask lanes) {
+    const BlockRow* const rows = tree_of(frame).rows.data() + child.first();
+    const ElementRecord::Kind kind = element_kind(child);
     BlockTriangles triangles;
     if (kind == ElementRecord::Kind::triangle)
         triangles = block_triangles(rows);
-    for (std::size_t i = 0; i < block.count() && lanes != 0; ++i) {
+    for (std::size_t i = 0; i < child.count() && lanes != 0; ++i) {
         MetRows<packet_size> met;
-        if (kind == ElementRecord::Kind::triangle) {
+        if (kind == ElementRecord::Kind::triangle)
             meet_triangle(triangles, i, frame, lanes, met);
-        } else {
+        else
             for_other_kind(kind, [&](auto constant) {
                 meet_element<constant.value>(rows, i, frame, lanes, met);
             });
-        }
-        const std::uint32_t element = element_number(rows, i);
-        LaneMask may = met.may & lanes;
         if (kind == ElementRecord::Kind::call) {
-            if (may != 0)
-                visit_call(query, frame, element, may);
-            lanes &= query.active;
-            continue;
+            visit_call(query, frame, element_number(rows, i), met.may & lanes);
+        } else {
+            query.counts.tests += static_cast<std::uint64_t>(std::popcount(lanes));
+            take_met(query, frame, rows, kind, i, lanes, met);
         }
-        query.counts.tests += static_cast<std::uint64_t>(std::popcount(lanes));
-        if (may == 0)
-            continue;
-        const LaneMask starting = starting_on(frame, element);
-        if ((may & starting) != 0)
-            may &= ~(starting & leaving_element(rows, kind, i, frame));
-        const LaneMask sure = met.sure & may & ~starting;
-        if (query.purpose == Purpose::any) {
-            detail::block(query, frame, sure);
-            may &= ~sure;
-        } else if (query.purpose == Purpose::nearest) {
-            lower_limits(frame, sure, met.far);
-        }
-        if (!may_wait(query.purpose, kind)) {
-            test_exactly(query, frame, element, may);
-            lanes &= query.active;
-            continue;
-        }
-        make_room_for_candidate(query, frame);
-        copy(met.near, frame.candidates.near[frame.candidates.count]);
-        add_candidate(frame, kind, element, may);
         lanes &= query.active;
     }
 }
 
+/// Takes what is known of how one lane's ray meets element i, which it may and which is not a call.
+inline void take_met_alone(
+    PacketQuery& query,
+    Frame& frame,
+    const BlockRow* rows,
+    ElementRecord::Kind kind,
+    std::size_t i,
+    std::size_t lane,
+    const MetRows<block_width>& met) {
+    const std::uint32_t element = element_number(rows, i);
+    if (element == frame.start_element[lane]) {
+        if (leaves_element(rows, kind, i, frame, lane))
+            return;
+    } else if ((met.sure >> i & 1U) != 0) {
+        if (query.purpose == Purpose::any)
+            return block(query, frame, bit_of(lane));
+        if (query.purpose == Purpose::nearest)
+            frame.limit[lane] = std::min(frame.limit[lane], met.far[i] + margin_behind(frame));
+    }
+    if (!may_wait(query.purpose, kind))
+        return test_exactly(query, frame, element, bit_of(lane));
+    make_room_for_candidate(query, frame);
+    frame.candidates.near[frame.candidates.count][lane] = met.near[i];
+    add_candidate(frame, kind, element, bit_of(lane));
+}
+
 /// What one lane's ray does at a block.
 inline void
-visit_block_alone(PacketQuery& query, Frame& frame, const TreeChild& block, std::size_t lane) {
+visit_block_alone(PacketQuery& query, Frame& frame, const TreeChild& child, std::size_t lane) {
     const Elements d;
-    const BlockRow* const rows = tree_of(frame).rows.data() + block.first();
-    const ElementRecord::Kind kind = element_kind(block);
-    const std::uint32_t present = (std::uint32_t{1} << block.count()) - 1;
+    const BlockRow* const rows = tree_of(frame).rows.data() + child.first();
+    const ElementRecord::Kind kind = element_kind(child);
+    const std::uint32_t present = (std::uint32_t{1} << child.count()) - 1;
     MetRows<block_width> met;
     if (kind == ElementRecord::Kind::triangle) {
         const auto ray = one_ray(d, frame, lane);
@@ -379,37 +413,16 @@ visit_block_alone(PacketQuery& query, Frame& frame, const TreeChild& block, std:
             meet_block<constant.value>(rows, present, frame, lane, met);
         });
     }
-    std::uint32_t may = met.may & present;
-    if (kind == ElementRecord::Kind::call) {
-        for (; may != 0 && (query.active & bit_of(lane)) != 0; may &= may - 1) {
-            const auto i = static_cast<std::size_t>(std::countr_zero(may));
+    if (kind != ElementRecord::Kind::call)
+        query.counts.tests += child.count();
+    for (std::uint32_t may = met.may & present; may != 0; may &= may - 1) {
+        const auto i = static_cast<std::size_t>(std::countr_zero(may));
+        if (kind == ElementRecord::Kind::call)
             visit_call(query, frame, element_number(rows, i), bit_of(lane));
-        }
-        return;
-    }
-    query.counts.tests += block.count();
-    if (may == 0)
-        return;
-    for (std::uint32_t rest = may; rest != 0; rest &= rest - 1) {
-        const auto i = static_cast<std::size_t>(std::countr_zero(rest));
-        const std::uint32_t bit = std::uint32_t{1} << i;
-        const std::uint32_t element = element_number(rows, i);
-        if (element == frame.start_element[lane]) {
-            if (leaves_element(rows, kind, i, frame, lane))
-                continue;
-        } else if ((met.sure & bit) != 0) {
-            if (query.purpose == Purpose::any)
-                return detail::block(query, frame, bit_of(lane));
-            if (query.purpose == Purpose::nearest)
-                frame.limit[lane] = std::min(frame.limit[lane], met.far[i] + margin_behind(frame));
-        }
-        if (!may_wait(query.purpose, kind)) {
-            test_exactly(query, frame, element, bit_of(lane));
-            continue;
-        }
-        make_room_for_candidate(query, frame);
-        frame.candidates.near[frame.candidates.count][lane] = met.near[i];
-        add_candidate(frame, kind, element, bit_of(lane));
+        else
+            take_met_alone(query, frame, rows, kind, i, lane, met);
+        if ((query.active & bit_of(lane)) == 0)
+            return;
     }
 }
 

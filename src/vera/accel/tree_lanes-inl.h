@@ -217,13 +217,16 @@ HWY_INLINE std::uint32_t drop_behind(TreeChild* stack, std::uint32_t size, float
 /// Lets the processor fetch what the child is.
 HWY_INLINE void fetch(const GeometryTree& tree, const TreeChild& child) {
     // Without a branch, which would be guessed wrongly again and again.
-    const auto nodes = reinterpret_cast<std::uintptr_t>(tree.nodes.data());
-    const auto rows = reinterpret_cast<std::uintptr_t>(tree.rows.data());
+    const auto* const rows = reinterpret_cast<const char*>(tree.rows.data());
+    const std::uintptr_t to_nodes = reinterpret_cast<std::uintptr_t>(tree.nodes.data())
+        - reinterpret_cast<std::uintptr_t>(rows);
     const std::uintptr_t first = child.first();
     const std::uintptr_t if_node = std::uintptr_t{child.is_block()} - 1;
-    const auto* const place = reinterpret_cast<const char*>(
-        rows + first * sizeof(BlockRow)
-        + (if_node & (nodes - rows + first * (sizeof(WideNode) - sizeof(BlockRow)))));
+    const char* const place =
+        rows
+        + static_cast<std::ptrdiff_t>(
+            first * sizeof(BlockRow)
+            + (if_node & (to_nodes + first * (sizeof(WideNode) - sizeof(BlockRow)))));
     for (std::size_t line = 0; line < sizeof(WideNode); line += 64)
         hwy::Prefetch(place + line);
 }
