@@ -370,6 +370,132 @@ TEST_P(EveryIndex, AnswersRaysThatGoNowhere) {
     expect_like_brute_force(scene, *make(scene), rays, "strange directions");
 }
 
+TEST_P(EveryIndex, AnswersRaysThatAreNoneBesideRaysThatAre) {
+    constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+    constexpr double forever = std::numeric_limits<double>::infinity();
+    const Scene scene = random_scene(4, {});
+    const auto index = make(scene);
+    const std::vector<QueryRay> good = testing::coherent_rays(6, 64, 1);
+    const Answers expected = answers(*index, good);
+    for (const double strange : {nothing, forever, -forever, 1e200, 1e60})
+        for (int number = 0; number < 9; ++number) {
+            std::vector<QueryRay> rays = good;
+            for (std::size_t i = 0; i < rays.size(); i += 5) {
+                Ray& ray = rays[i].ray;
+                const std::array<double*, 9> numbers = {
+                    &ray.origin.x,
+                    &ray.origin.y,
+                    &ray.origin.z,
+                    &ray.direction.x,
+                    &ray.direction.y,
+                    &ray.direction.z,
+                    &ray.t_min,
+                    &ray.t_max,
+                    &ray.origin_error};
+                *numbers[static_cast<std::size_t>(number)] = strange;
+            }
+            const Answers found = answers(*index, rays);
+            for (std::size_t i = 0; i < rays.size(); ++i)
+                if (i % 5 != 0) {
+                    EXPECT_EQ(found.hits[i], expected.hits[i])
+                        << strange << " as number " << number;
+                    EXPECT_EQ(found.transmitted[i], expected.transmitted[i]);
+                }
+        }
+}
+
+TEST_P(EveryIndex, AnswersRaysFromVeryFarAndInVeryFarScenes) {
+    for (const double far : {0.0, 1e9, 1e32, 1e60}) {
+        Scene scene;
+        for (std::uint32_t i = 0; i < 5; ++i) {
+            scene.geometry.spheres.push_back({{far + 3.0 * i, 0, 0}, 1});
+            scene.geometry.items.push_back({.kind = ItemKind::sphere, .index = i});
+        }
+        number_primitives(scene);
+        std::vector<QueryRay> rays;
+        for (const double from : {2.0, 1e9, 1e32, 1e60})
+            for (const Vec3& direction : {Vec3{0, 0, 1}, {1, 0, 0}, {-1, 0, 0}, {0.1, 0.2, 1}}) {
+                QueryRay query;
+                query.ray.origin = Vec3{far, 0, 0} - from * direction;
+                query.ray.direction = direction;
+                rays.push_back(query);
+            }
+        expect_like_brute_force(scene, *make(scene), rays, "far " + std::to_string(far));
+    }
+}
+
+TEST_P(EveryIndex, FindsWhatLiesBehindTheBeginningOfARay) {
+    Scene scene;
+    for (std::uint32_t i = 0; i < 8; ++i) {
+        const double z = -0.8 + 0.2 * i;
+        scene.geometry.triangles.push_back({{Vec3{-0.9, -0.9, z}, {0.9, -0.9, z}, {0, 0.9, z}}});
+        scene.geometry.items.push_back({.kind = ItemKind::triangle, .index = i});
+        scene.geometry.spheres.push_back({{0, 0, z}, 0.01});
+        scene.geometry.items.push_back({.kind = ItemKind::sphere, .index = i});
+    }
+    number_primitives(scene);
+    std::vector<QueryRay> rays;
+    for (int i = 0; i < 40; ++i) {
+        QueryRay query;
+        query.ray.origin = {0.001 * (i % 4), 0, -1};
+        query.ray.direction = {0, 0, 1};
+        query.ray.t_min = 0.05 * i;
+        query.ray.t_max =
+            query.ray.t_min + std::array{0.05, 0.1, 0.5, 3.0}[static_cast<std::size_t>(i) % 4];
+        rays.push_back(query);
+    }
+    expect_like_brute_force(scene, *make(scene), rays, "begun later");
+}
+
+TEST_P(EveryIndex, FindsTheFirstOfCoincidentFacesInAStretchedSubsceneFarAway) {
+    Scene scene;
+    scene.subscenes.resize(1);
+    Geometry& subscene = scene.subscenes[0];
+    for (std::uint32_t i = 0; i < 2; ++i) {
+        const double z = i == 0 ? 4e-4 : 0;
+        subscene.triangles.push_back({{Vec3{-0.9, -0.9, z}, {0.9, -0.9, z}, {0, 0.9, z}}});
+        subscene.items.push_back({.kind = ItemKind::triangle, .index = i});
+    }
+    subscene.spheres.push_back({{0.8, 0.8, 0.8}, 0.1});
+    subscene.items.push_back({.kind = ItemKind::sphere});
+    SubsceneCall call;
+    call.to_parent = {{{Vec3{4, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}}, {1e9, 0, 0}};
+    call.from_parent = *inverse(call.to_parent);
+    scene.geometry.calls.push_back(call);
+    scene.geometry.items.push_back({.kind = ItemKind::subscene_call});
+    number_primitives(scene);
+    QueryRay query;
+    query.ray.origin = {1e9, 0, -1};
+    query.ray.direction = {0, 0, 1};
+    const std::vector<QueryRay> rays(3, query);
+    expect_like_brute_force(scene, *make(scene), rays, "stretched");
+    EXPECT_EQ(answers(*make(scene), rays).hits[0].face.primitive, 0U);
+}
+
+TEST_P(EveryIndex, MeetsTrianglesWhoseAreaSinglePrecisionHardlyHolds) {
+    Scene scene;
+    for (const double size : {1e-12, 1e-18, 1e-20, 1e-22, 1e-30}) {
+        scene.geometry.items.push_back(
+            {.kind = ItemKind::triangle,
+             .index = static_cast<std::uint32_t>(scene.geometry.triangles.size())});
+        const double z = 0.1 * static_cast<double>(scene.geometry.triangles.size());
+        scene.geometry.triangles.push_back(
+            {{Vec3{-size, -size, z}, {size, -size, z}, {0, size, z}}});
+    }
+    scene.geometry.spheres.push_back({{0.9, 0.9, 0.9}, 0.1});
+    scene.geometry.items.push_back({.kind = ItemKind::sphere});
+    number_primitives(scene);
+    std::vector<QueryRay> rays;
+    for (const double z : {-0.5, 0.05, 0.15, 0.25, 0.35})
+        for (const double direction : {1.0, -1.0}) {
+            QueryRay query;
+            query.ray.origin = {0, 0, z};
+            query.ray.direction = {0, 0, direction};
+            rays.push_back(query);
+        }
+    expect_like_brute_force(scene, *make(scene), rays, "tiny");
+}
+
 TEST_P(EveryIndex, CanBeInterruptedAndTellsHowFarItIs) {
     const Scene scene = random_scene(1, {});
     double last = 0;

@@ -217,9 +217,12 @@ std::vector<QueryRay> random_rays(std::uint64_t seed, std::size_t count, double 
             query.ray.direction = pick_point(random, 1);
         if (random() % 4 != 0)
             query.ray.direction = normalized(query.ray.direction);
-        switch (random() % 4) {
+        switch (random() % 5) {
         case 0:
             query.ray.t_min = -std::numeric_limits<double>::infinity();
+            break;
+        case 4:
+            query.ray.t_min = scale * std::array{0.25, 0.5, 1.0, 3.0}[random() % 4];
             break;
         case 1:
             query.ray.t_max = scale * 2;

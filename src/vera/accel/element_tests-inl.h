@@ -18,6 +18,8 @@
 
 #include "vera/accel/element_records.h"
 
+#include <limits>
+
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
@@ -165,8 +167,9 @@ HWY_INLINE Face<hn::Vec<D>> face_of(D d, const hn::Vec<D>* values) {
     cross3(e, f, normal);
     const V largest_e = hn::Max(hn::Abs(e[0]), hn::Max(hn::Abs(e[1]), hn::Abs(e[2])));
     const V largest_f = hn::Max(hn::Abs(f[0]), hn::Max(hn::Abs(f[1]), hn::Abs(f[2])));
-    // The normal's own components are off by up to 5 * 2^-24 of the product of the largest ones,
-    // which counts over the 5 units that a ray may be long, along three axes.
+    // The normal's own components are off by up to 8 * 2^-24 of the product of the largest ones,
+    // which counts over the 6 units from the corner to where the ray meets the plane, along all
+    // axes.
     const V normal_size =
         hn::Add(hn::Add(hn::Abs(normal[0]), hn::Abs(normal[1])), hn::Abs(normal[2]));
     return {
@@ -281,7 +284,9 @@ meeting_face(D d, const TestedRays<D>& rays, const FacePlace<hn::Vec<D>>& face) 
     const V end = hn::NegMulAdd(hn::Set(d, 4), slack, rays.limit);
     const auto surely_in_range =
         hn::And(hn::Gt(t_size, deeper), hn::Lt(far_size, hn::Mul(end, size)));
-    const V per_size = hn::Div(hn::Set(d, 1), size);
+    // Not infinite: near would be, too, or no number.
+    const V per_size =
+        hn::Min(hn::Div(hn::Set(d, 1), size), hn::Set(d, std::numeric_limits<float>::max()));
     return {
         hn::And(in_outline, in_range),
         hn::And(surely_in_outline, surely_in_range),

@@ -30,6 +30,7 @@ void start(
     query.active = ~LaneMask{0} >> (std::numeric_limits<LaneMask>::digits - rays.size());
     for (std::size_t lane = 0; lane < rays.size(); ++lane)
         query.limit[lane] = rays[lane].ray.t_max;
+    query.reach.fill(0);
 }
 
 /// For rays that meet many coincident faces: the first search has told where they lie.
@@ -105,8 +106,11 @@ void find_nearest_hits(
     VERA_CHECK(rays.size() == hits.size());
     const auto begin = [&](PacketQuery& query, std::span<const QueryRay> packet) {
         start(query, searched, packet, Purpose::nearest);
-        for (std::size_t lane = 0; lane < packet.size(); ++lane)
-            query.nearest[lane].start(coincidence_reach(packet[lane].ray));
+        for (std::size_t lane = 0; lane < packet.size(); ++lane) {
+            const double reach = coincidence_reach(packet[lane].ray);
+            query.reach[lane] = std::max(reach, 0.0);
+            query.nearest[lane].start(reach);
+        }
     };
     const auto finish = [&](PacketQuery& query, std::size_t first) {
         take_hits(query, searched, hits.subspan(first, query.rays.size()));

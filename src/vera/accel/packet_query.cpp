@@ -86,7 +86,7 @@ void set_start_element(const PacketQuery& query, Frame& frame, std::size_t lane)
 
 /// Completes a frame whose rays were filled in; returns the lanes that touch the bounds.
 LaneMask entering(PacketQuery& query, Frame& frame, LaneMask lanes) {
-    const LaneMask touching = place_rays(frame, lanes, query.limit, query.local_start);
+    const LaneMask touching = place_rays(frame, lanes, query.limit, query.reach, query.local_start);
     for (LaneMask rest = touching; rest != 0; rest &= rest - 1)
         set_start_element(query, frame, static_cast<std::size_t>(std::countr_zero(rest)));
     return touching;

@@ -82,9 +82,10 @@ struct Candidates {
 /// A packet as it visits a geometry: in its coordinates and double precision, for what decides, and
 /// in local coordinates and single precision, for what only prunes.
 ///
-/// In local coordinates the rays start where they enter the geometry's bounds and have unit
-/// directions. A ray passes within slack of where its single precision form says: that covers the
-/// rounding of both forms, of the element's record, and of the test that decides.
+/// In local coordinates the rays start where they enter the geometry's bounds, or near these (see
+/// LocalStart), and have unit directions. A ray passes within slack of where its single precision
+/// form says: that covers the rounding of both forms, of the element's record, and of the test that
+/// decides.
 struct alignas(64) Frame {
     using Row = FloatRow;
 
@@ -97,6 +98,8 @@ struct alignas(64) Frame {
     RayRows::Row speed;   ///< local distance for one unit of t
     std::array<std::uint32_t, packet_size> start_element;
     float slack = 0;
+    float behind =
+        0; ///< twice coincidence_tolerance(), for nearest faces: the largest of the lanes
     LaneMask prepared_lanes = 0; ///< whose prepared rays were made
     const LocalGeometry* local = nullptr;
     std::uint32_t visit = 0; ///< tells this visit from all others in the mailbox
@@ -111,7 +114,8 @@ struct alignas(64) Frame {
     std::vector<WaitingTogether> waiting_together;
 };
 
-/// Local distances do not get larger: the bounds' diagonal is less than 4.
+/// Local distances do not get larger: to the far end of the bounds it is less than 5.2 from any
+/// point where rays start.
 constexpr double farthest = 8;
 
 /// Rounding to single precision moves a coordinate, or a point of a ray, by less than 2^-21 of the
@@ -126,9 +130,14 @@ void fill_rows(std::span<const QueryRay> rays, RayRows& rows);
 enum class LocalStart : std::uint8_t { in_bounds, near_bounds };
 
 /// Fills in the local form of the lanes' rays, their limits and the slack; returns the lanes that
-/// may touch the bounds. limit says behind which t nothing counts.
-LaneMask
-place_rays(Frame& frame, LaneMask lanes, const RayRows::Row& limit, LocalStart local_start);
+/// may touch the bounds. limit says behind which t nothing counts; world_reach is that of the
+/// query.
+LaneMask place_rays(
+    Frame& frame,
+    LaneMask lanes,
+    const RayRows::Row& limit,
+    const RayRows::Row& world_reach,
+    LocalStart local_start);
 
 /// The lanes' rays, carried by the map as transformed_ray() does, to the bit.
 void transform_rays(const Affine3& map, const RayRows& rays, RayRows& result);
@@ -201,6 +210,7 @@ struct PacketQuery {
     LaneMask active = 0;       ///< lanes that have no final answer
     std::uint32_t changes = 0; ///< how often a limit or active has changed
     RayRows::Row limit;        ///< crossings at a greater t do not count
+    RayRows::Row reach;        ///< coincidence_reach(); 0 where it does not matter
     std::array<NearestSearch, packet_size> nearest;
     std::vector<WindowSearch> window;
     std::array<TransmittanceSearch, packet_size> transmittance;

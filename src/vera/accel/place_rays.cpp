@@ -41,10 +41,15 @@ HWY_INLINE LaneMask bits(Mask mask, std::size_t lane) {
     return (LaneMask{bytes[0]} & ((LaneMask{1} << hn::Lanes(Doubles())) - 1)) << lane;
 }
 
+/// With it, everything in the bounds may be met.
+constexpr double largest_slack = 64;
+
 struct Placed {
     LaneMask touching = 0;
-    LaneMask strange = 0; ///< lanes whose rays have no direction, or are not finite
+    LaneMask strange =
+        0; ///< lanes whose rays have no direction, or are not finite, or too far away
     double slack = 0;
+    double behind = 0;
 };
 
 /// The rays of a frame from a lane on, as many as fit into a register: in local coordinates, where
@@ -119,6 +124,7 @@ HWY_INLINE hn::Mask<Doubles> place_far(Frame& frame, const LocalRays& rays, std:
 HWY_INLINE void place_part(
     Frame& frame,
     const RayRows::Row& limit,
+    const RayRows::Row& world_reach,
     LocalStart local_start,
     LaneMask lanes,
     std::size_t lane,
@@ -142,7 +148,8 @@ HWY_INLINE void place_part(
     for (std::size_t axis = 0; axis < 3; ++axis) {
         rays.origin[axis] =
             hn::Mul(scale, hn::Sub(row(frame.rays.origin[axis], lane), all(local.center[axis])));
-        rays.origin_size = hn::Max(rays.origin_size, hn::Abs(rays.origin[axis]));
+        // A sum, which is not a number where one of them is none.
+        rays.origin_size = hn::Add(rays.origin_size, hn::Abs(rays.origin[axis]));
     }
     const auto norm_squared = hn::Add(
         hn::Add(hn::Mul(given[0], given[0]), hn::Mul(given[1], given[1])),
@@ -159,14 +166,18 @@ HWY_INLINE void place_part(
             hn::Mul(all(2 * local.scale), row(frame.rays.origin_error, lane))));
     hn::StoreU(rays.speed, d, frame.speed.data() + lane);
 
-    // Squares outside of these bounds have lost digits.
+    // Squares outside of these bounds have lost digits; and where the slack is so large that
+    // nothing is ruled out, single precision need not hold it. What is not a number fails all.
     const auto usual = hn::And(
-        hn::And(hn::Gt(norm_squared, all(1e-280)), hn::Lt(norm_squared, all(1e280))),
-        hn::And(hn::Gt(rays.speed, all(1e-280)), hn::Lt(rays.origin_size, all(1e280))));
-    // What lies between the origin and t_min is looked at in vain, but that is little.
-    const auto near = hn::And(
-        hn::Lt(rays.origin_size, all(2)),
-        hn::And(hn::Ge(rays.t_min, hn::Zero(d)), hn::Lt(hn::Mul(rays.t_min, rays.speed), all(1))));
+        hn::And(
+            hn::And(hn::Gt(norm_squared, all(1e-280)), hn::Lt(norm_squared, all(1e280))),
+            hn::And(hn::Gt(rays.speed, all(1e-280)), hn::Lt(rays.origin_size, all(1e280)))),
+        hn::And(
+            hn::Lt(rays.slack, all(largest_slack)),
+            hn::And(
+                hn::Eq(rays.t_min, rays.t_min),
+                hn::Eq(row(frame.rays.t_max, lane), row(frame.rays.t_max, lane)))));
+    const auto near = hn::And(hn::Lt(rays.origin_size, all(2)), hn::Eq(rays.t_min, hn::Zero(d)));
     const LaneMask part = lanes >> lane & ((LaneMask{1} << hn::Lanes(d)) - 1);
     LaneMask touching = bits(usual, lane);
     if (local_start == LocalStart::near_bounds && (bits(hn::Not(near), 0) & part) == 0)
@@ -176,17 +187,30 @@ HWY_INLINE void place_part(
     placed.touching |= touching;
     placed.strange |= bits(hn::Not(usual), lane);
     std::uint8_t counted[8] = {static_cast<std::uint8_t>((touching & lanes) >> lane)};
-    const auto counted_slack = hn::IfThenElseZero(hn::LoadMaskBits(d, counted), rays.slack);
+    const auto counts = hn::LoadMaskBits(d, counted);
+    const auto counted_slack = hn::IfThenElseZero(counts, rays.slack);
     placed.slack = std::max(placed.slack, hn::GetLane(hn::MaxOfLanes(d, counted_slack)));
+    // Twice coincidence_tolerance(), as a local distance.
+    const auto reach =
+        hn::Add(row(world_reach, lane), hn::Abs(hn::LoadU(d, frame.start_t.data() + lane)));
+    const auto behind =
+        hn::MulAdd(hn::Mul(reach, rays.speed), all(0x1p-40), all(0x1p-40 * farthest));
+    placed.behind =
+        std::max(placed.behind, hn::GetLane(hn::MaxOfLanes(d, hn::IfThenElseZero(counts, behind))));
 }
 
-LaneMask
-place_rays_kernel(Frame& frame, LaneMask lanes, const RayRows::Row& limit, LocalStart local_start) {
+LaneMask place_rays_kernel(
+    Frame& frame,
+    LaneMask lanes,
+    const RayRows::Row& limit,
+    const RayRows::Row& world_reach,
+    LocalStart local_start) {
     Placed placed;
     for (std::size_t lane = 0; lane < packet_size; lane += hn::Lanes(Doubles()))
         if ((lanes >> lane & ((LaneMask{1} << hn::Lanes(Doubles())) - 1)) != 0)
-            place_part(frame, limit, local_start, lanes, lane, placed);
+            place_part(frame, limit, world_reach, local_start, lanes, lane, placed);
     frame.slack = static_cast<float>(std::max(placed.slack * (1 + 0x1p-20), least_slack));
+    frame.behind = static_cast<float>(placed.behind * (1 + 0x1p-20));
     placed.strange &= lanes;
     for (LaneMask rest = placed.strange; rest != 0; rest &= rest - 1) {
         const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
@@ -199,7 +223,7 @@ place_rays_kernel(Frame& frame, LaneMask lanes, const RayRows::Row& limit, Local
         frame.limit[lane] = static_cast<float>(farthest);
         frame.start_t[lane] = 0;
         frame.speed[lane] = 0;
-        frame.slack = 64;
+        frame.slack = static_cast<float>(largest_slack);
     }
     return (placed.touching & lanes) | placed.strange;
 }
@@ -221,6 +245,7 @@ HWY_INLINE void fill_two(const double* first, const double* second, double* row,
 }
 
 void fill_rows_kernel(std::span<const QueryRay> rays, RayRows& rows) {
+    static_assert(offsetof(Ray, origin) == 0);
     static_assert(offsetof(Ray, direction) == 3 * sizeof(double));
     static_assert(offsetof(Ray, t_min) == 6 * sizeof(double));
     static_assert(offsetof(Ray, t_max) == 7 * sizeof(double));
@@ -228,8 +253,8 @@ void fill_rows_kernel(std::span<const QueryRay> rays, RayRows& rows) {
         const Ray& a = rays[lane].ray;
         // The last one may stand alone; there is room for it twice.
         const Ray& b = rays[std::min(lane + 1, rays.size() - 1)].ray;
-        const double* const first = &a.origin.x;
-        const double* const second = &b.origin.x;
+        const auto* const first = reinterpret_cast<const double*>(&a);
+        const auto* const second = reinterpret_cast<const double*>(&b);
         fill_two(first, second, &rows.origin[0][lane], &rows.origin[1][lane]);
         fill_two(first + 2, second + 2, &rows.origin[2][lane], &rows.direction[0][lane]);
         fill_two(first + 4, second + 4, &rows.direction[1][lane], &rows.direction[2][lane]);
@@ -296,9 +321,13 @@ void fill_rows(std::span<const QueryRay> rays, RayRows& rows) {
     HWY_DYNAMIC_DISPATCH(fill_rows_kernel)(rays, rows);
 }
 
-LaneMask
-place_rays(Frame& frame, LaneMask lanes, const RayRows::Row& limit, LocalStart local_start) {
-    return HWY_DYNAMIC_DISPATCH(place_rays_kernel)(frame, lanes, limit, local_start);
+LaneMask place_rays(
+    Frame& frame,
+    LaneMask lanes,
+    const RayRows::Row& limit,
+    const RayRows::Row& world_reach,
+    LocalStart local_start) {
+    return HWY_DYNAMIC_DISPATCH(place_rays_kernel)(frame, lanes, limit, world_reach, local_start);
 }
 
 void transform_rays(const Affine3& map, const RayRows& rays, RayRows& result) {

@@ -70,10 +70,9 @@ HWY_INLINE TestedRays<D> rays_from(D d, const Frame& frame, std::size_t lane) {
 }
 
 /// How far behind the distance by which something is surely met that may lie which has to be told
-/// from it: the coincidence tolerance, which the part of the slack that comes of far origins is at
-/// least a 55th of, and roundings.
+/// from it: what coincides with it, and roundings.
 inline float margin_behind(const Frame& frame) {
-    return 4 * frame.slack + 64 * (frame.slack - static_cast<float>(least_slack));
+    return 4 * frame.slack + frame.behind;
 }
 
 /// How a packet's rays meet an element, or one ray those of a block.
@@ -333,6 +332,8 @@ inline void take_met(
     } else if (query.purpose == Purpose::nearest) {
         lower_limits(frame, sure, met.far);
     }
+    if (may == 0)
+        return;
     if (!may_wait(query.purpose, kind))
         return test_exactly(query, frame, element, may);
     make_room_for_candidate(query, frame);

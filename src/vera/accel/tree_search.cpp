@@ -92,16 +92,16 @@ HWY_INLINE std::uint32_t children_in_beam(
     };
     std::uint32_t met = 0;
     for (std::size_t i = 0; i < tree_width; i += hn::Lanes(d)) {
-        auto near = hn::Zero(d);
+        auto near = hn::Zero(d); // stays the second of two zeros, which counts: +0
         auto far = hn::Set(d, limit);
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const std::size_t first = places[axis] + i;
             const std::size_t last = places[3 + axis] + i;
             near = hn::Max(
-                near,
                 hn::Min(
                     line(first, beam.inverse[axis][0], beam.near_offset[axis][0]),
-                    line(first, beam.inverse[axis][1], beam.near_offset[axis][1])));
+                    line(first, beam.inverse[axis][1], beam.near_offset[axis][1])),
+                near);
             far = hn::Min(
                 far,
                 hn::Max(
