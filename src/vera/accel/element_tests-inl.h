@@ -484,7 +484,7 @@ surely_leaves(D d, const TestedRays<D>& rays, ElementRecord::Kind kind, const hn
     return none(d);
 }
 
-/// May_meet() and surely_meets() at once, and between which distances.
+/// Both may_meet() and surely_meets(), and between which distances.
 template <typename D>
 HWY_INLINE Meeting<D>
 meeting(D d, const TestedRays<D>& rays, ElementRecord::Kind kind, const hn::Vec<D>* values) {
@@ -504,31 +504,6 @@ meeting(D d, const TestedRays<D>& rays, ElementRecord::Kind kind, const hn::Vec<
         hn::Zero(d),
         rays.limit};
 }
-
-/// These tests as values.
-struct MayMeet {
-    template <typename D>
-    HWY_INLINE hn::Mask<D> operator()(
-        D d, const TestedRays<D>& rays, ElementRecord::Kind kind, const hn::Vec<D>* values) const {
-        return may_meet(d, rays, kind, values);
-    }
-};
-
-struct SurelyMeets {
-    template <typename D>
-    HWY_INLINE hn::Mask<D> operator()(
-        D d, const TestedRays<D>& rays, ElementRecord::Kind kind, const hn::Vec<D>* values) const {
-        return surely_meets(d, rays, kind, values);
-    }
-};
-
-struct SurelyLeaves {
-    template <typename D>
-    HWY_INLINE hn::Mask<D> operator()(
-        D d, const TestedRays<D>& rays, ElementRecord::Kind kind, const hn::Vec<D>* values) const {
-        return surely_leaves(d, rays, kind, values);
-    }
-};
 
 } // namespace vera::detail::HWY_NAMESPACE
 

@@ -261,22 +261,20 @@ struct CornerPlaces {
     const Vec3* corner[3];
 };
 
+CornerPlaces corners_in(const Mesh& mesh, std::uint32_t triangle) {
+    const Vec3* const positions = mesh.positions.data();
+    const std::uint32_t* const corners = mesh.position_indices.data() + std::size_t{3} * triangle;
+    return {{positions + corners[0], positions + corners[1], positions + corners[2]}};
+}
+
 CornerPlaces corner_places(const LocalGeometry& local, std::uint32_t element) {
     const Geometry& geometry = *local.geometry;
-    if (local.mesh_corners != nullptr) {
-        const Vec3* const positions = geometry.meshes.front().positions.data();
-        const std::uint32_t* const corners = local.mesh_corners + std::size_t{3} * element;
-        return {{positions + corners[0], positions + corners[1], positions + corners[2]}};
-    }
+    if (local.mesh_corners != nullptr)
+        return corners_in(geometry.meshes.front(), element);
     const Element place = element_at(geometry, element);
     const Item& item = geometry.items[place.item];
-    if (item.kind == ItemKind::mesh) {
-        const Mesh& mesh = geometry.meshes[item.index];
-        const Vec3* const positions = mesh.positions.data();
-        const std::uint32_t* const corners =
-            mesh.position_indices.data() + std::size_t{3} * place.triangle;
-        return {{positions + corners[0], positions + corners[1], positions + corners[2]}};
-    }
+    if (item.kind == ItemKind::mesh)
+        return corners_in(geometry.meshes[item.index], place.triangle);
     VERA_CHECK(item.kind == ItemKind::triangle || item.kind == ItemKind::patch);
     const Vec3* const first = item.kind == ItemKind::triangle
         ? geometry.triangles[item.index].corners.data()
@@ -317,14 +315,11 @@ void decide_triangles(
     for (LaneMask rest = met; rest != 0; rest &= rest - 1) {
         const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
         const std::uint32_t element = elements[lane];
-        std::uint64_t number = element;
-        MaterialId material = inherited_material;
-        if (!geometry.calls.empty() || query.purpose == Purpose::transmittance) {
-            const Element place = element_at(geometry, element);
-            number = primitive_number(geometry, place);
-            material = resolved(geometry.items[place.item].material, frame.material);
-        }
-        if (take_crossing(query, lane, t[lane], {frame.first_primitive + number, 0}, material))
+        const std::uint64_t number = frame.first_primitive
+            + (geometry.calls.empty() ? element
+                                      : primitive_number(geometry, element_at(geometry, element)));
+        // What lets light through does not wait: no material is asked for.
+        if (take_crossing(query, lane, t[lane], {number, 0}, inherited_material))
             ++query.changes;
     }
 }

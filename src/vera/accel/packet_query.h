@@ -98,8 +98,7 @@ struct alignas(64) Frame {
     RayRows::Row speed;   ///< local distance for one unit of t
     std::array<std::uint32_t, packet_size> start_element;
     float slack = 0;
-    float behind =
-        0; ///< twice coincidence_tolerance(), for nearest faces: the largest of the lanes
+    float behind = 0;            ///< twice the largest coincidence_tolerance() of the lanes
     LaneMask prepared_lanes = 0; ///< whose prepared rays were made
     const LocalGeometry* local = nullptr;
     std::uint32_t visit = 0; ///< tells this visit from all others in the mailbox
@@ -247,7 +246,7 @@ void decide(PacketQuery& query, Frame& frame, LaneMask lanes);
 /// Lets the processor fetch what it takes to decide() the frame's candidates.
 void fetch_candidates(const Frame& frame);
 
-/// The same for what has remained undecided when the main scene was searched.
+/// Does decide() for all that has remained undecided when the main scene was searched.
 void decide_main_scene(PacketQuery& query);
 
 /// Lets there be room for one more candidate.

@@ -57,7 +57,6 @@ struct Placed {
 struct LocalRays {
     Vec origin[3];
     Vec origin_size;
-    Vec norm; ///< of the direction in the geometry's own coordinates
     Vec direction[3];
     Vec speed;
     Vec slack;
@@ -135,7 +134,6 @@ HWY_INLINE void place_part(
     LocalRays rays = {
         {hn::Zero(d), hn::Zero(d), hn::Zero(d)},
         hn::Zero(d),
-        hn::Zero(d),
         {hn::Zero(d), hn::Zero(d), hn::Zero(d)},
         hn::Zero(d),
         hn::Zero(d),
@@ -154,11 +152,11 @@ HWY_INLINE void place_part(
     const auto norm_squared = hn::Add(
         hn::Add(hn::Mul(given[0], given[0]), hn::Mul(given[1], given[1])),
         hn::Mul(given[2], given[2]));
-    rays.norm = hn::Sqrt(norm_squared);
-    const auto per_norm = hn::Div(all(1), rays.norm);
+    const auto norm = hn::Sqrt(norm_squared);
+    const auto per_norm = hn::Div(all(1), norm);
     for (std::size_t axis = 0; axis < 3; ++axis)
         rays.direction[axis] = hn::Mul(given[axis], per_norm);
-    rays.speed = hn::Mul(rays.norm, scale);
+    rays.speed = hn::Mul(norm, scale);
     rays.slack = hn::Add(
         all(least_slack + 0x1p-44 * local.scale * local.coordinate_size),
         hn::Add(
