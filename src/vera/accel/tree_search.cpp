@@ -269,7 +269,7 @@ LaneMask search_together(
 void search_tree(PacketQuery& query, Frame& frame, LaneMask lanes) {
     lanes &= query.active;
     frame.candidates.count = 0;
-    const std::size_t depth = waiting_depth(tree_of(frame));
+    const std::size_t depth = waiting_depth(tree_of(frame).levels);
     if (frame.waiting_together.size() < depth) {
         frame.waiting.resize(packet_size * depth);
         frame.waiting_together.resize(depth);

@@ -26,18 +26,6 @@ namespace vera::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// A ray on its way: what a step takes, side by side.
-struct alignas(64) Walk {
-    float inverse[3];
-    float near_offset[3];
-    float far_offset[3];
-    std::array<std::uint8_t, 6> places; ///< see plane_places
-    std::uint8_t order;                 ///< see put_met_children
-    std::uint32_t size;                 ///< of the stack
-    TreeChild* stack;                   ///< what waits; the next one is on top
-    TreeChild next;                     ///< where the ray is
-};
-
 using Walks = std::array<Walk, packet_size>;
 
 /// Sets a lane's ray on its way, with nothing waiting.
@@ -52,40 +40,7 @@ HWY_INLINE void start_walk(
     walk.places = plane_places[octant];
     walk.order = static_cast<std::uint8_t>(order_of(query, octant));
     walk.size = 0;
-    walk.stack = frame.waiting.data() + lane * waiting_depth(tree_of(frame));
-}
-
-/// Lets the children of the node wait whose boxes the ray meets before the limit.
-HWY_INLINE void add_met_children(const WideNode& node, float limit, Walk& walk) {
-    const Children d;
-    const float* const planes = node.planes[0].data();
-    const auto enter = [&](std::size_t axis, std::size_t i) HWY_ATTR {
-        return hn::MulAdd(
-            hn::Load(d, planes + walk.places[axis] + i),
-            hn::Set(d, walk.inverse[axis]),
-            hn::Set(d, walk.near_offset[axis]));
-    };
-    const auto leave = [&](std::size_t axis, std::size_t i) HWY_ATTR {
-        return hn::MulAdd(
-            hn::Load(d, planes + walk.places[3 + axis] + i),
-            hn::Set(d, walk.inverse[axis]),
-            hn::Set(d, walk.far_offset[axis]));
-    };
-    const auto near_at = [&](std::size_t i) HWY_ATTR {
-        return hn::Max(hn::Max(enter(0, i), enter(1, i)), hn::Max(enter(2, i), hn::Zero(d)));
-    };
-    const auto far_at = [&](std::size_t i) HWY_ATTR {
-        return hn::Min(hn::Min(leave(0, i), leave(1, i)), hn::Min(leave(2, i), hn::Set(d, limit)));
-    };
-    walk.size += put_met_children(node, walk.order, near_at, far_at, walk.stack + walk.size);
-}
-
-/// Moves the ray to the next child that waits for it; false when there is none.
-HWY_INLINE bool take_waiting(Walk& walk) {
-    if (walk.size == 0)
-        return false;
-    walk.next = walk.stack[--walk.size];
-    return true;
+    walk.stack = frame.waiting.data() + lane * waiting_depth(tree_of(frame).levels);
 }
 
 /// Follows each of the lanes' rays down from what waits for it, by itself. The rays take steps in

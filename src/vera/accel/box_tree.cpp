@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vera/accel/box_tree.h"
+
+#include "vera/accel/box_tree_cuts.h"
+#include "vera/accel/box_tree_nodes.h"
+#include "vera/base/check.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <deque>
+#include <span>
+#include <stdexcept>
+#include <utility>
+
+namespace vera::detail {
+
+namespace {
+
+using Pair = std::array<BinaryNode, 2>;
+using Pairs = std::deque<Pair>; // which stay where they are while others are added
+
+/// A part of the tree that is cut up later, on any thread.
+struct Deferred {
+    ReferenceRange range;
+    std::size_t depth = 0;
+    BinaryNode* root = nullptr;
+};
+
+class Builder {
+public:
+    Builder(std::vector<BoxReference>& references, std::size_t leaf_size, const CancelFlag* cancel)
+        : references_(references)
+        , leaf_size_(leaf_size)
+        , cancel_(cancel) {
+        // About so many subtrees for the threads, their number not depending on
+        // that of the threads: the tree is always the same.
+        constexpr std::size_t subtrees = 64;
+        constexpr std::size_t least = 2048;
+        const std::size_t subtree_size = std::max(least, references_.size() / subtrees);
+        std::vector<Deferred> deferred;
+        grow(
+            root_,
+            range_of(references_, 0, references_.size()),
+            0,
+            {top_, subtree_size, &deferred});
+        pairs_.resize(deferred.size());
+        parallel_ranges(deferred.size(), 1, [&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i)
+                grow(*deferred[i].root, deferred[i].range, deferred[i].depth, {pairs_[i]});
+        });
+        for (auto pair = top_.rbegin(); pair != top_.rend(); ++pair)
+            for (BinaryNode& node : *pair)
+                if (node.children != nullptr)
+                    fill_costs(node);
+        if (!top_.empty())
+            fill_costs(root_);
+    }
+
+    const BinaryNode& root() const { return root_; }
+
+private:
+    /// Where a part of the tree is put.
+    struct Part {
+        Pairs& pairs;
+        std::size_t deferred_size = 0; ///< so few references are deferred
+        std::vector<Deferred>* deferred = nullptr;
+    };
+
+    std::span<const BoxReference> references_of(const ReferenceRange& range) const {
+        return std::span<const BoxReference>(references_).subspan(range.first, range.size());
+    }
+
+    /// Whether the range makes a leaf as it is.
+    bool is_leaf(const ReferenceRange& range) const {
+        const auto references = references_of(range);
+        return range.size() <= leaf_size_
+            && std::all_of(
+                   references.begin(), references.end(), [&](const BoxReference& reference) {
+                       return reference.kind == references.front().kind;
+                   });
+    }
+
+    Halves cut_at(const ReferenceRange& range, std::size_t middle) const {
+        return {
+            range_of(references_, range.first, middle), range_of(references_, middle, range.last)};
+    }
+
+    /// Cuts the range, which is no leaf, in two that are not empty.
+    Halves halves(const ReferenceRange& range, std::size_t depth) {
+        if (range.size() <= leaf_size_) {
+            const auto begin = references_.begin() + static_cast<std::ptrdiff_t>(range.first);
+            const auto end = references_.begin() + static_cast<std::ptrdiff_t>(range.last);
+            const std::uint32_t kind = begin->kind;
+            const auto middle = std::partition(
+                begin, end, [&](const BoxReference& reference) { return reference.kind == kind; });
+            return cut_at(range, static_cast<std::size_t>(middle - references_.begin()));
+        }
+        // Where cuts by surface have led so deep, only halving keeps below the last
+        // level.
+        constexpr std::size_t last_level = most_tree_levels - 2 * tree_width;
+        if (depth + static_cast<std::size_t>(std::bit_width(range.size())) < last_level)
+            if (const auto found = halves_by_surface(references_, range))
+                return *found;
+        return cut_at(range, range.first + range.size() / 2);
+    }
+
+    /// Makes the node of a range, so many levels below the root, and what is
+    /// below it.
+    void grow(BinaryNode& node, const ReferenceRange& range, std::size_t depth, const Part& part) {
+        if (cancel_ != nullptr)
+            cancel_->throw_if_raised();
+        if (range.size() <= part.deferred_size) {
+            part.deferred->push_back({range, depth, &node});
+            return;
+        }
+        node.box = range.box.box();
+        node.first = static_cast<std::uint32_t>(range.first);
+        node.size = static_cast<std::uint32_t>(range.size());
+        if (is_leaf(range)) {
+            float content = 0;
+            for (const BoxReference& reference : references_of(range))
+                content += surface(reference.box());
+            fill_costs_of_leaf(node, content);
+            return;
+        }
+        const auto [left, right] = halves(range, depth);
+        Pair& children = part.pairs.emplace_back();
+        node.children = children.data();
+        grow(children[0], left, depth + 1, part);
+        grow(children[1], right, depth + 1, part);
+        if (part.deferred == nullptr)
+            fill_costs(node);
+    }
+
+    std::vector<BoxReference>& references_;
+    std::size_t leaf_size_;
+    const CancelFlag* cancel_;
+    BinaryNode root_;
+    Pairs top_;
+    std::vector<Pairs> pairs_; ///< of the subtrees
+};
+
+} // namespace
+
+BoxTree build_box_tree(
+    std::vector<BoxReference> references, std::size_t leaf_size, const CancelFlag* cancel) {
+    VERA_CHECK(leaf_size >= 1 && leaf_size <= tree_width);
+    // There are no more nodes than references: each but the root has at least two
+    // children.
+    if (references.size() > TreeChild::most)
+        throw std::length_error("more references than a tree of boxes can number");
+    BoxTree tree;
+    tree.references = std::move(references);
+    if (!tree.references.empty())
+        make_wide_nodes(Builder(tree.references, leaf_size, cancel).root(), tree);
+    return tree;
+}
+
+} // namespace vera::detail

@@ -1,0 +1,405 @@
+// SPDX-License-Identifier: Apache-2.0
+// What rays do at the leaves of the tree of a mesh: see mesh_search.cpp. Compiled once for each
+// instruction set.
+
+#if defined(VERA_ACCEL_MESH_LEAVES_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef VERA_ACCEL_MESH_LEAVES_INL_H
+#undef VERA_ACCEL_MESH_LEAVES_INL_H
+#else
+#define VERA_ACCEL_MESH_LEAVES_INL_H
+#endif
+
+#include "vera/accel/mesh_rays-inl.h"
+#include "vera/accel/mesh_tree.h"
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+
+namespace vera::detail::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Triangles of a leaf that are looked at together.
+using Triangles = hn::CappedTag<float, mesh_leaf_size>;
+
+// Bounds of what is rounded. Corners and rays are exact, so that a difference of two of them is off
+// by u = 2^-24 of itself, and each further operation by as much. With e and f the sides from corner
+// a, q the way from the origin to a, and d the direction, of which |x| is the sum of the
+// coordinates without their signs and [q] the largest one: each of the six products that a volume
+// adds up is rounded seven times, so that volumes are off by at most
+//   7 u [q] |d| |side|     of q, a side and the direction,
+//   7 u |d| |e| |f|        of e, f and the direction,
+//   7 u [q] |e| |f|        of e, f and q.
+// That of the third side is the second less two of the first: it is off by
+//   9 u |d| (|e| + |f|) ([q] + (|e| + |f|) / 4).
+constexpr float side_rounding = 10 * 0x1p-24F;
+constexpr float speed_rounding = 8 * 0x1p-24F;
+constexpr float depth_rounding = 8 * 0x1p-24F;
+
+// What is too small for a usual number loses digits, or all: volumes may be off by this as well. Of
+// a speed, so much that its inverse is finite.
+constexpr float volume_underflow = 0x1p-140F;
+constexpr float speed_underflow = 0x1p-120F;
+
+template <typename V>
+struct Vector {
+    V x;
+    V y;
+    V z;
+};
+
+template <typename V>
+HWY_INLINE Vector<V> difference(const Vector<V>& a, const Vector<V>& b) {
+    return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
+}
+
+template <typename V>
+HWY_INLINE V product(const Vector<V>& a, const Vector<V>& b) {
+    return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
+}
+
+template <typename V>
+HWY_INLINE Vector<V> cross_product(const Vector<V>& a, const Vector<V>& b) {
+    return {
+        hn::MulSub(a.y, b.z, hn::Mul(a.z, b.y)),
+        hn::MulSub(a.z, b.x, hn::Mul(a.x, b.z)),
+        hn::MulSub(a.x, b.y, hn::Mul(a.y, b.x))};
+}
+
+template <typename V>
+HWY_INLINE Vector<V> absolute(const Vector<V>& a) {
+    return {hn::Abs(a.x), hn::Abs(a.y), hn::Abs(a.z)};
+}
+
+template <typename V>
+HWY_INLINE V sum_of(const Vector<V>& a) {
+    return hn::Add(hn::Add(a.x, a.y), a.z);
+}
+
+template <typename V>
+HWY_INLINE V largest(const Vector<V>& a) {
+    return hn::Max(hn::Abs(a.x), hn::Max(hn::Abs(a.y), hn::Abs(a.z)));
+}
+
+template <typename D>
+HWY_INLINE Vector<hn::Vec<D>> same_for_all(D d, const float* coordinates) {
+    return {hn::Set(d, coordinates[0]), hn::Set(d, coordinates[1]), hn::Set(d, coordinates[2])};
+}
+
+/// A triangle as single precision sees it.
+template <typename V>
+struct Sides {
+    Vector<V> corner;
+    Vector<V> e;
+    Vector<V> f;
+    Vector<V> normal;
+    V size;    ///< |e| + |f|: see above
+    V product; ///< |e| |f|
+};
+
+/// Of triangles of which row(j) are the numbers in row j of their leaves.
+template <typename D, typename Row>
+HWY_INLINE Sides<hn::Vec<D>> sides_of(D, const Row& row) {
+    using V = hn::Vec<D>;
+    const Vector<V> a = {row(0), row(1), row(2)};
+    const Vector<V> e = difference<V>({row(3), row(4), row(5)}, a);
+    const Vector<V> f = difference<V>({row(6), row(7), row(8)}, a);
+    const V e_size = sum_of(absolute(e));
+    const V f_size = sum_of(absolute(f));
+    return {a, e, f, cross_product(e, f), hn::Add(e_size, f_size), hn::Mul(e_size, f_size)};
+}
+
+/// Of triangles number i on of a leaf.
+template <typename D>
+HWY_INLINE Sides<hn::Vec<D>> sides_at(D d, const float* rows, std::size_t size, std::size_t i) {
+    return sides_of(d, [&](std::size_t j) HWY_ATTR { return hn::LoadU(d, rows + j * size + i); });
+}
+
+/// How rays pass triangles, each a volume of the ray's direction and two others: u, v and w have
+/// the sign of speed, or are 0, where the ray meets the triangle, and there t is depth / speed.
+template <typename V>
+struct Passing {
+    V u;
+    V v;
+    V speed;
+    V depth;
+    V side_error; ///< of u, v and w
+    V speed_error;
+    V depth_error;
+};
+
+/// How rays meet triangles.
+template <typename D>
+struct MeshMeeting {
+    hn::Mask<D> may;  ///< false: surely not, or not before the limit
+    hn::Mask<D> sure; ///< true: surely, and after near and before far
+    hn::Vec<D> near;
+    hn::Vec<D> far;
+};
+
+template <typename D>
+HWY_INLINE MeshMeeting<D>
+meeting_triangle(D d, const Passing<hn::Vec<D>>& passing, hn::Vec<D> t_min, hn::Vec<D> limit) {
+    using V = hn::Vec<D>;
+    const V w = hn::Sub(hn::Sub(passing.speed, passing.u), passing.v);
+    const V lowest = hn::Min(hn::Min(passing.u, passing.v), w);
+    const V highest = hn::Max(hn::Max(passing.u, passing.v), w);
+    const V size = hn::Abs(passing.speed);
+    const auto in_outline =
+        hn::Or(hn::Ge(lowest, hn::Neg(passing.side_error)), hn::Le(highest, passing.side_error));
+    const auto surely_in_outline =
+        hn::Or(hn::Gt(lowest, passing.side_error), hn::Lt(highest, hn::Neg(passing.side_error)));
+    const auto known = hn::Gt(size, hn::Mul(hn::Set(d, 4), passing.speed_error));
+    const V per_speed = hn::Div(hn::Set(d, 1), passing.speed);
+    const V t = hn::Mul(passing.depth, per_speed);
+    const V error = hn::Mul(
+        hn::MulAdd(hn::Abs(t), passing.speed_error, passing.depth_error),
+        hn::Abs(hn::Mul(hn::Set(d, 1.5F), per_speed)));
+    const V near = hn::Sub(t, error);
+    const V far = hn::Add(t, error);
+    const auto in_range = hn::And(hn::Ge(far, t_min), hn::Le(near, limit));
+    const auto surely_in_range = hn::And(hn::Gt(near, t_min), hn::Lt(far, limit));
+    return {
+        hn::And(in_outline, hn::Or(hn::Not(known), in_range)),
+        hn::And(hn::And(surely_in_outline, known), surely_in_range),
+        near,
+        far};
+}
+
+/// The bound of what the volumes with the sides are off by; direction_size is |d|, largest_way [q].
+template <typename D>
+HWY_INLINE hn::Vec<D>
+side_error(D d, const Sides<hn::Vec<D>>& sides, float direction_size, hn::Vec<D> largest_way) {
+    return hn::MulAdd(
+        hn::Mul(hn::Set(d, side_rounding * direction_size), sides.size),
+        hn::MulAdd(hn::Set(d, 0.25F), sides.size, largest_way),
+        hn::Set(d, volume_underflow));
+}
+
+/// The same for their speed.
+template <typename D>
+HWY_INLINE hn::Vec<D> speed_error(D d, const Sides<hn::Vec<D>>& sides, float direction_size) {
+    return hn::MulAdd(
+        hn::Set(d, speed_rounding * direction_size), sides.product, hn::Set(d, speed_underflow));
+}
+
+/// The same for their depth.
+template <typename D>
+HWY_INLINE hn::Vec<D> depth_error(D d, const Sides<hn::Vec<D>>& sides, hn::Vec<D> largest_way) {
+    return hn::MulAdd(
+        hn::Mul(hn::Set(d, depth_rounding), sides.product),
+        largest_way,
+        hn::Set(d, volume_underflow));
+}
+
+/// Where lines may pass the origin so far, a way from there is as badly known as one that is longer
+/// by this.
+inline float blurred_way(float blur) {
+    return blur / (0.25F * depth_rounding);
+}
+
+/// How rays pass triangles; direction_size and blur as in a RayGroup.
+template <typename D>
+HWY_INLINE Passing<hn::Vec<D>> passing_triangle(
+    D d,
+    const Vector<hn::Vec<D>>& origin,
+    const Vector<hn::Vec<D>>& direction,
+    float direction_size,
+    float blur,
+    const Sides<hn::Vec<D>>& sides) {
+    using V = hn::Vec<D>;
+    const Vector<V> way = difference(sides.corner, origin);
+    const Vector<V> moment = cross_product(way, direction);
+    const V q = hn::Add(largest(way), hn::Set(d, blurred_way(blur)));
+    return {
+        product(moment, sides.f),
+        hn::Neg(product(moment, sides.e)),
+        product(sides.normal, direction),
+        product(sides.normal, way),
+        side_error(d, sides, direction_size, q),
+        speed_error(d, sides, direction_size),
+        depth_error(d, sides, q)};
+}
+
+/// The triangles of a leaf as seen from an origin, number by number: what only the direction is
+/// missing from.
+struct SeenTriangles {
+    static constexpr std::size_t count = 13;
+    alignas(64) float rows[count][mesh_leaf_size];
+};
+
+/// The triangles of a leaf as they are seen from the beam's origin; returns which of them its rays
+/// may meet before its limit. That is told for all their directions at once, by middle and half.
+HWY_INLINE std::uint32_t
+see_triangles(const float* rows, std::size_t size, const BeamWalk& beam, SeenTriangles& seen) {
+    const Triangles d;
+    using V = hn::Vec<Triangles>;
+    const RayGroup& group = *beam.group;
+    const Vector<V> middle = same_for_all(d, beam.direction_middle);
+    const Vector<V> half = same_for_all(d, beam.direction_half);
+    std::uint32_t may = 0;
+    for (std::size_t i = 0; i < size; i += hn::Lanes(d)) {
+        const Sides<V> sides = sides_at(d, rows, size, i);
+        const Vector<V> way = difference(sides.corner, same_for_all(d, beam.origin));
+        const Vector<V> u = cross_product(sides.f, way);
+        const Vector<V> v = cross_product(way, sides.e);
+        const Vector<V>& normal = sides.normal;
+        const V depth = product(normal, way);
+        const V q = hn::Add(largest(way), hn::Set(d, blurred_way(group.blur)));
+        const V u_v_error = side_error(d, sides, group.direction_size, q);
+        const V n_error = speed_error(d, sides, group.direction_size);
+        const V t_error = depth_error(d, sides, q);
+        const V values[SeenTriangles::count] = {
+            u.x,
+            u.y,
+            u.z,
+            v.x,
+            v.y,
+            v.z,
+            normal.x,
+            normal.y,
+            normal.z,
+            depth,
+            u_v_error,
+            n_error,
+            t_error};
+        for (std::size_t j = 0; j < SeenTriangles::count; ++j)
+            hn::Store(values[j], d, seen.rows[j] + i);
+
+        const Vector<V> w = difference(difference(normal, u), v);
+        const V u_middle = product(u, middle);
+        const V v_middle = product(v, middle);
+        const V speed_middle = product(normal, middle);
+        const V w_middle = hn::Sub(hn::Sub(speed_middle, u_middle), v_middle);
+        const V u_half = hn::Add(product(absolute(u), half), u_v_error);
+        const V v_half = hn::Add(product(absolute(v), half), u_v_error);
+        const V w_half = hn::Add(product(absolute(w), half), u_v_error);
+        const V speed_half = hn::Add(product(absolute(normal), half), u_v_error);
+        // Whether all of these can be positive, or negative: u, v, w and speed.
+        const auto front = hn::And(
+            hn::And(hn::Ge(u_middle, hn::Neg(u_half)), hn::Ge(v_middle, hn::Neg(v_half))),
+            hn::And(hn::Ge(w_middle, hn::Neg(w_half)), hn::Ge(speed_middle, hn::Neg(speed_half))));
+        const auto back = hn::And(
+            hn::And(hn::Le(u_middle, u_half), hn::Le(v_middle, v_half)),
+            hn::And(hn::Le(w_middle, w_half), hn::Le(speed_middle, speed_half)));
+        const V most_speed = hn::Add(hn::Abs(speed_middle), speed_half);
+        const auto before =
+            hn::Le(hn::Sub(hn::Abs(depth), t_error), hn::Mul(hn::Set(d, beam.limit), most_speed));
+        may |= bits_of(d, hn::And(hn::Or(front, back), before)) << i;
+    }
+    return may & ((std::uint32_t{1} << size) - 1);
+}
+
+/// How the group's rays from i on, which start at one origin, pass a triangle that was seen.
+HWY_INLINE Passing<hn::Vec<Rays>> passing_seen(
+    Rays d, const RayGroup& group, std::size_t i, const SeenTriangles& seen, std::size_t triangle) {
+    using V = hn::Vec<Rays>;
+    const auto value = [&](std::size_t j) HWY_ATTR { return hn::Set(d, seen.rows[j][triangle]); };
+    const Vector<V> direction = {
+        hn::Load(d, group.direction[0].data() + i),
+        hn::Load(d, group.direction[1].data() + i),
+        hn::Load(d, group.direction[2].data() + i)};
+    return {
+        product({value(0), value(1), value(2)}, direction),
+        product({value(3), value(4), value(5)}, direction),
+        product({value(6), value(7), value(8)}, direction),
+        value(9),
+        value(10),
+        value(11),
+        value(12)};
+}
+
+/// The triangles of a leaf, number by number, for rays from anywhere.
+struct StoredTriangles {
+    static constexpr std::size_t count = 14;
+    alignas(64) float rows[count][mesh_leaf_size];
+};
+
+HWY_INLINE void store_triangles(const float* rows, std::size_t size, StoredTriangles& stored) {
+    const Triangles d;
+    for (std::size_t i = 0; i < size; i += hn::Lanes(d)) {
+        const auto sides = sides_at(d, rows, size, i);
+        const hn::Vec<Triangles> values[StoredTriangles::count] = {
+            sides.corner.x,
+            sides.corner.y,
+            sides.corner.z,
+            sides.e.x,
+            sides.e.y,
+            sides.e.z,
+            sides.f.x,
+            sides.f.y,
+            sides.f.z,
+            sides.normal.x,
+            sides.normal.y,
+            sides.normal.z,
+            sides.size,
+            sides.product};
+        for (std::size_t j = 0; j < StoredTriangles::count; ++j)
+            hn::Store(values[j], d, stored.rows[j] + i);
+    }
+}
+
+/// How the group's rays from i on pass a triangle that was stored.
+HWY_INLINE Passing<hn::Vec<Rays>> passing_stored(
+    Rays d,
+    const RayGroup& group,
+    std::size_t i,
+    const StoredTriangles& stored,
+    std::size_t triangle) {
+    using V = hn::Vec<Rays>;
+    const auto value = [&](std::size_t j) HWY_ATTR { return hn::Set(d, stored.rows[j][triangle]); };
+    const Vector<V> origin = {
+        hn::Load(d, group.origin[0].data() + i),
+        hn::Load(d, group.origin[1].data() + i),
+        hn::Load(d, group.origin[2].data() + i)};
+    const Vector<V> direction = {
+        hn::Load(d, group.direction[0].data() + i),
+        hn::Load(d, group.direction[1].data() + i),
+        hn::Load(d, group.direction[2].data() + i)};
+    const Sides<V> sides = {
+        {value(0), value(1), value(2)},
+        {value(3), value(4), value(5)},
+        {value(6), value(7), value(8)},
+        {value(9), value(10), value(11)},
+        value(12),
+        value(13)};
+    return passing_triangle(d, origin, direction, group.direction_size, group.blur, sides);
+}
+
+/// How the rays from i on of a group that was turned round meet triangle j of a leaf, seen from
+/// where they started: more is known of what is near there.
+HWY_NOINLINE MeshMeeting<Rays> meeting_from_start(
+    Rays d,
+    const RayGroup& group,
+    std::size_t i,
+    const float* rows,
+    std::size_t size,
+    std::size_t j) {
+    using V = hn::Vec<Rays>;
+    const auto value = [&](std::size_t row) HWY_ATTR { return hn::Set(d, rows[row * size + j]); };
+    const auto vector = [&](const GroupRow<float>* of_axis) HWY_ATTR {
+        return Vector<V>{
+            hn::Load(d, of_axis[0].data() + i),
+            hn::Load(d, of_axis[1].data() + i),
+            hn::Load(d, of_axis[2].data() + i)};
+    };
+    const Vector<V> back = vector(group.direction);
+    const Vector<V> direction = {hn::Neg(back.x), hn::Neg(back.y), hn::Neg(back.z)};
+    return meeting_triangle(
+        d,
+        passing_triangle(
+            d, vector(group.start), direction, group.direction_size, 0, sides_of(d, value)),
+        hn::Load(d, group.start_t_min.data() + i),
+        hn::Load(d, group.t_max.data() + i));
+}
+
+} // namespace vera::detail::HWY_NAMESPACE
+
+HWY_AFTER_NAMESPACE();
+
+#endif

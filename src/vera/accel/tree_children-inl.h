@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+// How rays come to the children of a node of a tree of boxes. Compiled once for each instruction
+// set.
+
+#if defined(VERA_ACCEL_TREE_CHILDREN_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef VERA_ACCEL_TREE_CHILDREN_INL_H
+#undef VERA_ACCEL_TREE_CHILDREN_INL_H
+#else
+#define VERA_ACCEL_TREE_CHILDREN_INL_H
+#endif
+
+#include "vera/accel/tree_structures.h"
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+#include <hwy/cache_control.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+
+namespace vera::detail::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Children of a node that a ray is tested against together.
+using Children = hn::CappedTag<float, tree_width>;
+
+template <typename D>
+HWY_INLINE std::uint32_t bits_of(D d, hn::Mask<D> mask) {
+    std::uint8_t bytes[8] = {};
+    hn::StoreMaskBits(d, mask, bytes);
+    const std::uint32_t all = bytes[0] | std::uint32_t{bytes[1]} << 8U;
+    return all & ((std::uint32_t{1} << hn::Lanes(d)) - 1);
+}
+
+/// Where the planes are, in a node, that rays of each octant come to first and last along each
+/// axis: in numbers from the first plane on.
+constexpr auto plane_places = [] {
+    std::array<std::array<std::uint8_t, 6>, octant_count> places = {};
+    for (std::size_t octant = 0; octant < octant_count; ++octant)
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const bool backward = (octant >> axis & 1U) != 0;
+            places[octant][axis] =
+                static_cast<std::uint8_t>((backward ? axis + 3 : axis) * tree_width);
+            places[octant][3 + axis] =
+                static_cast<std::uint8_t>((backward ? axis : axis + 3) * tree_width);
+        }
+    return places;
+}();
+
+#undef VERA_COMPRESS_CHILDREN
+#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+#define VERA_COMPRESS_CHILDREN 1
+#else
+#define VERA_COMPRESS_CHILDREN 0
+#endif
+
+/// Puts the children of the node onto a stack for which near, which is not negative, is not behind
+/// far, those to come to first in this order, or where that is cheaper, the nearest ones, on top;
+/// returns how many. near_at(i) and far_at(i) are those of a register full of children from number
+/// i on. Whole registers are stored.
+template <typename NearAt, typename FarAt>
+HWY_INLINE std::uint32_t put_met_children(
+    const WideNode& node,
+    std::size_t order,
+    const NearAt& near_at,
+    const FarAt& far_at,
+    TreeChild* stack) {
+#if VERA_COMPRESS_CHILDREN
+    const __m512i children = _mm512_load_si512(node.children.data());
+    const __m512i numbers = _mm512_srl_epi64(
+        children, _mm_cvtsi32_si128(static_cast<int>(TreeChild::order_shift_of(order))));
+    const __m256i short_numbers = _mm512_cvtepi64_epi32(numbers);
+    const __m512i in_order = _mm512_permutexvar_epi64(numbers, children);
+    const __m256 near = _mm256_permutevar8x32_ps(near_at(0).raw, short_numbers);
+    const __m256 far = _mm256_permutevar8x32_ps(far_at(0).raw, short_numbers);
+    const __mmask8 met = _mm256_cmp_ps_mask(near, far, _CMP_LE_OQ);
+    const __m512i upper = _mm512_slli_epi64(_mm512_cvtepu32_epi64(_mm256_castps_si256(near)), 32);
+    // Bit by bit, of the child where lower_part has a one, of upper where it has none.
+    const __m512i waiting = _mm512_ternarylogic_epi64(
+        _mm512_set1_epi64(static_cast<long long>(TreeChild::lower_part)), in_order, upper, 0xca);
+    _mm512_storeu_si512(stack, _mm512_maskz_compress_epi64(met, waiting));
+    return static_cast<std::uint32_t>(std::popcount(std::uint32_t{met}));
+#else
+    const Children d;
+    std::uint32_t met = 0;
+    alignas(64) float near[tree_width];
+    for (std::size_t i = 0; i < tree_width; i += hn::Lanes(d)) {
+        const auto enters = near_at(i);
+        hn::StoreU(enters, d, near + i);
+        met |= bits_of(d, hn::Le(enters, far_at(i))) << i;
+    }
+    std::uint32_t size = 0;
+    if (order == any_order) {
+        for (std::size_t place = 0; place < tree_width; ++place) {
+            const std::size_t i = node.children[place].in_order(order);
+            if ((met >> i & 1U) != 0)
+                stack[size++] = TreeChild::waiting(node.children[i], near[i]);
+        }
+        return size;
+    }
+    for (; met != 0; met &= met - 1) {
+        const auto i = static_cast<std::size_t>(std::countr_zero(met));
+        const TreeChild child = TreeChild::waiting(node.children[i], near[i]);
+        std::size_t place = size++;
+        for (; place > 0 && stack[place - 1].bits < child.bits; --place)
+            stack[place] = stack[place - 1];
+        stack[place] = child;
+    }
+    return size;
+#endif
+}
+
+/// Drops what waits behind the limit, which is at least 0, of a stack of this size; returns how
+/// much is left. Whole registers are stored.
+HWY_INLINE std::uint32_t drop_behind(TreeChild* stack, std::uint32_t size, float limit) {
+    // As integers, numbers that are not negative have the same order.
+    const std::uint64_t last = TreeChild::waiting({~std::uint64_t{0}}, limit).bits;
+    std::uint32_t kept = 0;
+#if VERA_COMPRESS_CHILDREN
+    for (std::uint32_t i = 0; i < size; i += tree_width) {
+        const __m512i children = _mm512_loadu_si512(stack + i);
+        const std::uint32_t there = size - i < tree_width ? (1U << (size - i)) - 1 : 0xffU;
+        const auto before = static_cast<__mmask8>(
+            there
+            & _mm512_cmple_epu64_mask(children, _mm512_set1_epi64(static_cast<long long>(last))));
+        _mm512_storeu_si512(stack + kept, _mm512_maskz_compress_epi64(before, children));
+        kept += static_cast<std::uint32_t>(std::popcount(static_cast<std::uint32_t>(before)));
+    }
+#else
+    for (std::uint32_t i = 0; i < size; ++i)
+        if (stack[i].bits <= last)
+            stack[kept++] = stack[i];
+#endif
+    return kept;
+}
+
+/// Lets the processor fetch what the child is: one of the nodes, or a block that begins so many
+/// units of bytes behind the blocks.
+HWY_INLINE void
+fetch(const WideNode* nodes, const void* blocks, std::size_t unit, const TreeChild& child) {
+    // Without a branch, which would be guessed wrongly again and again.
+    const auto* const base = static_cast<const char*>(blocks);
+    const std::uintptr_t to_nodes =
+        reinterpret_cast<std::uintptr_t>(nodes) - reinterpret_cast<std::uintptr_t>(blocks);
+    const std::uintptr_t first = child.first();
+    const std::uintptr_t if_node = std::uintptr_t{child.is_block()} - 1;
+    const char* const place =
+        base
+        + static_cast<std::ptrdiff_t>(
+            first * unit + (if_node & (to_nodes + first * (sizeof(WideNode) - unit))));
+    for (std::size_t line = 0; line < sizeof(WideNode); line += 64)
+        hwy::Prefetch(place + line);
+}
+
+/// A ray on its way: what a step takes, side by side.
+struct alignas(64) Walk {
+    float inverse[3];
+    float near_offset[3];
+    float far_offset[3];
+    std::array<std::uint8_t, 6> places; ///< see plane_places
+    std::uint8_t order;                 ///< see put_met_children
+    std::uint32_t size;                 ///< of the stack
+    TreeChild* stack;                   ///< what waits; the next one is on top
+    TreeChild next;                     ///< where the ray is
+};
+
+/// Lets the children of the node wait whose boxes the ray meets before the limit.
+HWY_INLINE void add_met_children(const WideNode& node, float limit, Walk& walk) {
+    const Children d;
+    const float* const planes = node.planes[0].data();
+    const auto enter = [&](std::size_t axis, std::size_t i) HWY_ATTR {
+        return hn::MulAdd(
+            hn::Load(d, planes + walk.places[axis] + i),
+            hn::Set(d, walk.inverse[axis]),
+            hn::Set(d, walk.near_offset[axis]));
+    };
+    const auto leave = [&](std::size_t axis, std::size_t i) HWY_ATTR {
+        return hn::MulAdd(
+            hn::Load(d, planes + walk.places[3 + axis] + i),
+            hn::Set(d, walk.inverse[axis]),
+            hn::Set(d, walk.far_offset[axis]));
+    };
+    const auto near_at = [&](std::size_t i) HWY_ATTR {
+        return hn::Max(hn::Max(enter(0, i), enter(1, i)), hn::Max(enter(2, i), hn::Zero(d)));
+    };
+    const auto far_at = [&](std::size_t i) HWY_ATTR {
+        return hn::Min(hn::Min(leave(0, i), leave(1, i)), hn::Min(leave(2, i), hn::Set(d, limit)));
+    };
+    walk.size += put_met_children(node, walk.order, near_at, far_at, walk.stack + walk.size);
+}
+
+/// Moves the ray to the next child that waits for it; false when there is none.
+HWY_INLINE bool take_waiting(Walk& walk) {
+    if (walk.size == 0)
+        return false;
+    walk.next = walk.stack[--walk.size];
+    return true;
+}
+
+/// What waits for one ray, or for a packet, in a tree of so many levels is at most this much: at
+/// each level less than a node's children; and whole registers are stored.
+inline std::size_t waiting_depth(std::size_t levels) {
+    return tree_width * (levels + 2);
+}
+
+} // namespace vera::detail::HWY_NAMESPACE
+
+HWY_AFTER_NAMESPACE();
+
+#endif

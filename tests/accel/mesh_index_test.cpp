@@ -1,0 +1,406 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vera/accel/mesh_crossing.h"
+#include "vera/accel/mesh_index.h"
+#include "vera/accel/simd_level.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <functional>
+#include <ostream>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "mesh_brute_force.h"
+#include "sample_mesh.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace vera {
+namespace {
+
+using ::testing::AllOf;
+using testing::brute_force_answer;
+using testing::brute_force_answers;
+using testing::close_layers;
+using testing::coherent_mesh_rays;
+using testing::cube;
+using ::testing::HasSubstr;
+using testing::MeshAnswer;
+using testing::MeshPoint;
+using testing::mixed_sizes;
+using testing::random_mesh;
+using testing::random_mesh_rays;
+using testing::rays_cut_at;
+using testing::rough_sphere;
+using testing::SampleMesh;
+using testing::scaled_and_shifted;
+using testing::sphere;
+using testing::with_broken_vertices;
+
+constexpr MeshIndexQuality both_qualities[] = {MeshIndexQuality::usual, MeshIndexQuality::high};
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+std::string told(const MeshHit& hit) {
+    std::ostringstream text;
+    text << std::hexfloat << hit.t << " of " << hit.triangle << " at " << hit.u << " " << hit.v;
+    return text.str();
+}
+
+std::string told(const MeshRay& ray) {
+    std::ostringstream text;
+    text << std::hexfloat << "origin";
+    for (const float x : ray.origin)
+        text << " " << x;
+    text << " direction";
+    for (const float x : ray.direction)
+        text << " " << x;
+    text << " from " << ray.t_min << " to " << ray.t_max;
+    return text.str();
+}
+
+bool same_bits(const MeshHit& a, const MeshHit& b) {
+    using Bits = std::array<std::uint32_t, 4>;
+    return std::bit_cast<Bits>(a) == std::bit_cast<Bits>(b);
+}
+
+bool same_bits(const std::vector<MeshHit>& a, const std::vector<MeshHit>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) {
+        return same_bits(x, y);
+    });
+}
+
+void expect_answers_one_by_one(
+    const MeshIndex& index,
+    const std::vector<MeshRay>& rays,
+    const std::vector<MeshAnswer>& expected,
+    const std::string& what) {
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const MeshHit nearest = index.nearest_hit(rays[i]);
+        ASSERT_TRUE(same_bits(nearest, expected[i].nearest))
+            << what << ", ray " << i << ": found " << told(nearest) << ", expected "
+            << told(expected[i].nearest) << "\n"
+            << told(rays[i]);
+        ASSERT_EQ(index.meets_any(rays[i]), expected[i].met) << what << ", ray " << i << "\n"
+                                                             << told(rays[i]);
+        const std::vector<MeshHit> all = index.all_hits(rays[i]);
+        ASSERT_TRUE(same_bits(all, expected[i].all))
+            << what << ", ray " << i << ": found " << all.size() << " hits, expected "
+            << expected[i].all.size() << "\n"
+            << told(rays[i]);
+    }
+}
+
+void expect_answers_by_spans(
+    const MeshIndex& index,
+    const std::vector<MeshRay>& rays,
+    const std::vector<MeshAnswer>& expected,
+    std::size_t span_size,
+    const std::string& what) {
+    std::vector<MeshHit> hits(rays.size());
+    std::vector<std::uint8_t> met(rays.size(), 7);
+    for (std::size_t first = 0; first < rays.size(); first += span_size) {
+        const std::size_t count = std::min(span_size, rays.size() - first);
+        const auto some_rays = std::span(rays).subspan(first, count);
+        index.nearest_hits(some_rays, std::span(hits).subspan(first, count));
+        index.meet_any(some_rays, std::span(met).subspan(first, count));
+    }
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        ASSERT_TRUE(same_bits(hits[i], expected[i].nearest))
+            << what << ", ray " << i << " in spans of " << span_size << ": found " << told(hits[i])
+            << ", expected " << told(expected[i].nearest) << "\n"
+            << told(rays[i]);
+        ASSERT_EQ(met[i], expected[i].met ? 1 : 0)
+            << what << ", ray " << i << " in spans of " << span_size << "\n"
+            << told(rays[i]);
+    }
+}
+
+/// Asks in every way there is.
+void expect_answers(
+    const MeshIndex& index,
+    const std::vector<MeshRay>& rays,
+    const std::vector<MeshAnswer>& expected,
+    const std::string& what) {
+    expect_answers_one_by_one(index, rays, expected, what);
+    for (const std::size_t span_size : {1U, 15U, 16U, 17U, 31U, 33U, 1000U}) {
+        if (::testing::Test::HasFailure())
+            return;
+        expect_answers_by_spans(index, rays, expected, span_size, what);
+    }
+}
+
+/// Rays of all sorts, some of which begin and end just where others meet the mesh.
+std::vector<MeshRay> rays_of_all_sorts(const SampleMesh& mesh, std::uint64_t seed) {
+    std::vector<MeshRay> rays = random_mesh_rays(seed, mesh, 400);
+    for (const MeshRay& ray : coherent_mesh_rays(seed, mesh, 400))
+        rays.push_back(ray);
+    const std::size_t uncut = rays.size();
+    for (std::size_t i = 0; i < uncut; i += 7) {
+        const MeshAnswer answer = brute_force_answer(mesh.spans(), rays[i]);
+        if (!answer.met)
+            continue;
+        for (const MeshHit& hit : {answer.nearest, answer.all[answer.all.size() / 2]})
+            for (const MeshRay& ray : rays_cut_at(rays[i], hit.t))
+                rays.push_back(ray);
+    }
+    return rays;
+}
+
+void expect_like_brute_force(const SampleMesh& mesh, std::uint64_t seed) {
+    const auto rays = rays_of_all_sorts(mesh, seed);
+    const auto expected = brute_force_answers(mesh.spans(), rays);
+    for (const MeshIndexQuality quality : both_qualities) {
+        const MeshIndex index(mesh.spans(), quality);
+        const std::string name = quality == MeshIndexQuality::usual ? "usual" : "high";
+        expect_answers(index, rays, expected, name + ", seed " + std::to_string(seed));
+    }
+}
+
+struct MeshFamily {
+    std::string name;
+    std::uint64_t seeds = 1;
+    std::function<SampleMesh(std::uint64_t seed)> make;
+
+    friend void PrintTo(const MeshFamily& family, std::ostream* out) { *out << family.name; }
+};
+
+MeshFamily few_triangles(std::string name, float factor, float offset) {
+    return {std::move(name), 12, [=](std::uint64_t seed) {
+                return scaled_and_shifted(random_mesh(seed, 5 * seed), factor, offset);
+            }};
+}
+
+class EveryMesh : public ::testing::TestWithParam<MeshFamily> {};
+
+INSTANTIATE_TEST_SUITE_P(
+    Families,
+    EveryMesh,
+    ::testing::Values(
+        few_triangles("FewTriangles", 1, 0),
+        few_triangles("FewSmallTriangles", 0x1p-60F, 0),
+        few_triangles("FewVerySmallTriangles", 1e-30F, 0),
+        few_triangles("FewTrianglesAsSmallAsCanBe", 1e-44F, 0),
+        few_triangles("FewLargeTriangles", 0x1p60F, 0),
+        few_triangles("FewVeryLargeTriangles", 1e30F, 0),
+        few_triangles("FewTrianglesAsLargeAsCanBe", 1e37F, 0),
+        few_triangles("FewTrianglesFarAway", 1, 1e6F),
+        few_triangles("FewSmallTrianglesFarAway", 0.001F, -3),
+        MeshFamily{"ManyTriangles", 2, [](auto seed) { return random_mesh(seed, 1000); }},
+        MeshFamily{"CloseLayers", 12, [](auto seed) { return close_layers(seed, 2 + 3 * seed); }},
+        MeshFamily{"MixedSizes", 12, [](auto seed) { return mixed_sizes(seed, 10 * seed); }},
+        MeshFamily{
+            "BrokenVertices",
+            6,
+            [](auto seed) { return with_broken_vertices(random_mesh(seed, 8 * seed), seed); }},
+        MeshFamily{"Cube", 2, [](auto seed) { return cube(2 * seed); }},
+        MeshFamily{"Sphere", 2, [](auto seed) { return sphere(2 + seed); }},
+        MeshFamily{"RoughSphere", 2, [](auto seed) { return rough_sphere(3, seed); }}),
+    [](const auto& family) { return family.param.name; });
+
+TEST_P(EveryMesh, IsAnsweredLikeByBruteForceOnEveryBit) {
+    for (std::uint64_t seed = 0; seed < GetParam().seeds; ++seed) {
+        expect_like_brute_force(GetParam().make(seed), seed);
+        if (HasFailure())
+            return;
+    }
+}
+
+TEST_P(EveryMesh, GivesTheSameBitsWithEveryInstructionSet) {
+    const std::uint64_t seed = GetParam().seeds - 1;
+    const SampleMesh mesh = GetParam().make(seed);
+    const auto rays = rays_of_all_sorts(mesh, seed + 1000);
+    const auto expected = brute_force_answers(mesh.spans(), rays);
+    const MeshIndexStatistics statistics = MeshIndex(mesh.spans()).statistics();
+    for (const std::string& level : simd_levels()) {
+        ASSERT_TRUE(limit_simd(level));
+        const MeshIndex index(mesh.spans());
+        EXPECT_EQ(index.statistics(), statistics) << level;
+        expect_answers(index, rays, expected, level);
+    }
+    EXPECT_TRUE(limit_simd(""));
+}
+
+/// How far a hit's places are from each other, as a part of the numbers that they are made of.
+struct PlaceErrors {
+    double to_bounds = 0; ///< from where the ray is at t to the triangle's bounds
+    double to_place = 0;  ///< to the triangle's place at u and v
+    bool grazing = false; ///< whether t is only known to be within the bounds
+};
+
+PlaceErrors place_errors(const SampleMesh& mesh, const MeshRay& ray, const MeshHit& hit) {
+    const auto& corners = mesh.triangles[hit.triangle];
+    const Vec3 a = detail::in_double(mesh.vertices[corners[0]]);
+    const Vec3 b = detail::in_double(mesh.vertices[corners[1]]);
+    const Vec3 c = detail::in_double(mesh.vertices[corners[2]]);
+    const Vec3 origin = detail::in_double(ray.origin);
+    const Vec3 direction = detail::in_double(ray.direction);
+    const Vec3 way = static_cast<double>(hit.t) * direction;
+    const Vec3 on_ray = origin + way;
+    const auto u = static_cast<double>(hit.u);
+    const auto v = static_cast<double>(hit.v);
+    const Vec3 on_triangle = (1 - u - v) * a + u * b + v * c;
+    const Vec3 in_bounds = max(min(a, min(b, c)), min(max(a, max(b, c)), on_ray));
+    const double size = max_component(abs(a)) + max_component(abs(b)) + max_component(abs(c))
+        + max_component(abs(origin)) + max_component(abs(way));
+    const double across = std::abs(dot(cross(b - a, c - a), direction));
+    return {
+        max_component(abs(on_ray - in_bounds)) / size,
+        max_component(abs(on_ray - on_triangle)) / size,
+        across <= 0x1p-20 * max_component(abs(b - a)) * max_component(abs(c - a))
+                * max_component(abs(direction))};
+}
+
+TEST(MeshHits, LieWhereTheRayAndTheTriangleSay) {
+    for (const auto& mesh : {sphere(4), rough_sphere(4, 1), cube(3), random_mesh(1, 300)}) {
+        const MeshIndex index(mesh.spans());
+        std::size_t across = 0;
+        for (const MeshRay& ray : random_mesh_rays(3, mesh, 2000))
+            for (const MeshHit& hit : index.all_hits(ray)) {
+                ASSERT_TRUE(hit.u >= 0 && hit.u <= 1 && hit.v >= 0 && hit.v <= 1) << told(hit);
+                ASSERT_TRUE(hit.t >= ray.t_min && hit.t <= ray.t_max) << told(hit);
+                // t, u and v are rounded to 2^-24 of themselves. Before, cancellation leaves them
+                // 2^-53 of the numbers, divided by the 2^-20 from which on the plane decides.
+                const PlaceErrors errors = place_errors(mesh, ray, hit);
+                ASSERT_LE(errors.to_bounds, 0x1p-22) << told(hit) << "\n" << told(ray);
+                if (errors.grazing)
+                    continue;
+                ASSERT_LE(errors.to_place, 0x1p-22) << told(hit) << "\n" << told(ray);
+                ++across;
+            }
+        EXPECT_GT(across, 1000U);
+    }
+}
+
+TEST(MeshHits, AreNotFarBesideTrianglesThatAreSeenEdgeOn) {
+    // In the triangle's plane, past the triangle: rounding leaves one edge's sign, and no others.
+    SampleMesh mesh;
+    mesh.add_triangle({-1, -1, 0}, {4, -1, 3}, {-1, 3, -3});
+    const MeshIndex first(mesh.spans());
+    EXPECT_TRUE(first.all_hits({{6.5F, -3, 6}, -1, {-13.75F, -1, -7.5F}, infinity}).empty());
+    SampleMesh other;
+    other.add_triangle({0, -1, 0}, {0.1F, -1, 0}, {-0.5F, 2, 1});
+    const MeshIndex second(other.spans());
+    EXPECT_TRUE(second.all_hits({{-1, -1, 0}, 0, {5, -3, -1}, infinity}).empty());
+}
+
+TEST(MeshHits, OfOneTAreThoseOfTheSmallestTriangle) {
+    SampleMesh mesh;
+    for (int i = 0; i < 300; ++i)
+        mesh.add_triangle({0, 0, 1}, {4, 0, 1}, {0, 4, 1});
+    mesh.triangles.insert(mesh.triangles.begin(), {0, 0, 0});
+    const MeshIndex index(mesh.spans());
+    const MeshRay ray = {.origin = {1, 2, 0}, .direction = {0, 0, 0.5F}};
+    EXPECT_EQ(index.nearest_hit(ray), (MeshHit{2, 1, 0.25F, 0.5F}));
+    const std::vector<MeshHit> all = index.all_hits(ray);
+    ASSERT_EQ(all.size(), 300U);
+    for (std::uint32_t i = 0; i < 300; ++i)
+        EXPECT_EQ(all[i], (MeshHit{2, i + 1, 0.25F, 0.5F}));
+}
+
+TEST(MeshHits, AreToldApartByMoreThanSinglePrecision) {
+    // Both are met at a t of 1 in single precision; the second is nearer.
+    SampleMesh mesh;
+    mesh.add_triangle({-1, -1, 0}, {3, -1, 0}, {-1, 3, 0});
+    mesh.add_triangle({-1, -1, 1e-12F}, {3, -1, 1e-12F}, {-1, 3, 1e-12F});
+    const MeshIndex index(mesh.spans());
+    const MeshRay ray = {.origin = {0, 0, 1}, .direction = {0, 0, -1}};
+    EXPECT_EQ(index.nearest_hit(ray), (MeshHit{1, 1, 0.25F, 0.25F}));
+    EXPECT_EQ(
+        index.all_hits(ray), (std::vector<MeshHit>{{1, 1, 0.25F, 0.25F}, {1, 0, 0.25F, 0.25F}}));
+}
+
+TEST(MeshIndex, OfNoTrianglesIsMetByNoRay) {
+    for (const MeshIndexQuality quality : both_qualities) {
+        const MeshIndex index({}, quality);
+        const std::vector<MeshRay> rays(20, {.direction = {1, 0, 0}});
+        expect_answers(index, rays, std::vector<MeshAnswer>(20), "empty");
+        index.nearest_hits({}, {});
+        index.meet_any({}, {});
+        EXPECT_EQ(index.statistics().triangles, 0U);
+        EXPECT_EQ(index.statistics().left_out, 0U);
+    }
+}
+
+TEST(MeshIndex, LeavesOutTrianglesWithCornersThatAreNowhere) {
+    SampleMesh mesh = cube(1);
+    mesh.add_triangle({0, 0, 0}, {0, std::nanf(""), 0}, {1, 0, 0});
+    mesh.add_triangle({infinity, 0, 0}, {0, 1, 0}, {1, 0, 0});
+    mesh.add_triangle({0, 0, 0}, {0, 1, 0}, {1, 0, -infinity});
+    for (const MeshIndexQuality quality : both_qualities) {
+        const MeshIndex index(mesh.spans(), quality);
+        EXPECT_EQ(index.statistics().triangles, mesh.triangles.size() - 3);
+        EXPECT_EQ(index.statistics().left_out, 3U);
+        EXPECT_GE(index.statistics().references, index.statistics().triangles);
+    }
+    std::vector<std::array<std::uint32_t, 3>> broken(
+        mesh.triangles.end() - 3, mesh.triangles.end());
+    const MeshIndex none({mesh.vertices, broken});
+    EXPECT_EQ(none.statistics().triangles, 0U);
+    EXPECT_EQ(none.statistics().left_out, 3U);
+    EXPECT_FALSE(none.meets_any({.origin = {-1, 0.25F, 0}, .direction = {1, 0, 0}}));
+}
+
+TEST(MeshIndex, RefusesATriangleOfAVertexThatThereIsNot) {
+    SampleMesh mesh = sphere(3);
+    const std::size_t vertices = mesh.vertices.size();
+    mesh.triangles[321][2] = static_cast<std::uint32_t>(vertices);
+    try {
+        const MeshIndex index(mesh.spans());
+        FAIL() << "it was not refused";
+    } catch (const std::invalid_argument& refusal) {
+        EXPECT_THAT(
+            refusal.what(),
+            AllOf(HasSubstr("triangle 321"), HasSubstr("vertex " + std::to_string(vertices))));
+    }
+    mesh.triangles[321][2] = 0;
+    mesh.triangles[5][0] = no_triangle;
+    EXPECT_THROW(MeshIndex(mesh.spans()), std::invalid_argument);
+    EXPECT_THROW(MeshIndex({{}, mesh.triangles}), std::invalid_argument);
+}
+
+TEST(MeshIndex, RefusesMoreTrianglesThanItCanNumberBeforeItReadsThem) {
+    const std::array<std::uint32_t, 3> only = {0, 0, 0};
+    const MeshPoint vertex = {};
+    EXPECT_THROW(MeshIndex({{&vertex, 1}, {&only, std::size_t{1} << 31U}}), std::length_error);
+    EXPECT_THROW(MeshIndex({{&vertex, 1}, {&only, std::size_t{1} << 40U}}), std::length_error);
+}
+
+TEST(MeshIndex, IsMoved) {
+    const SampleMesh mesh = cube(1);
+    const MeshRay ray = {.origin = {0.25F, 0.5F, 0}, .direction = {0, 0, 1}};
+    MeshIndex first(mesh.spans());
+    const MeshHit hit = first.nearest_hit(ray);
+    EXPECT_TRUE(hit.found());
+    MeshIndex second(std::move(first));
+    EXPECT_EQ(second.nearest_hit(ray), hit);
+    MeshIndex third({});
+    third = std::move(second);
+    EXPECT_EQ(third.nearest_hit(ray), hit);
+}
+
+TEST(MeshIndex, CountsItsStepsBesideWhatWasCounted) {
+    const SampleMesh mesh = sphere(4);
+    const MeshIndex index(mesh.spans());
+    const auto rays = coherent_mesh_rays(1, mesh, 320);
+    std::vector<MeshHit> hits(rays.size());
+    std::vector<std::uint8_t> met(rays.size());
+    MeshQueryCounts once;
+    index.nearest_hits(rays, hits, &once);
+    EXPECT_GT(once.nodes, 0U);
+    EXPECT_GT(once.triangles, 0U);
+    EXPECT_LT(once.triangles, rays.size() * mesh.triangles.size() / 10);
+    MeshQueryCounts twice = once;
+    index.nearest_hits(rays, hits, &twice);
+    EXPECT_EQ(twice.nodes, 2 * once.nodes);
+    EXPECT_EQ(twice.triangles, 2 * once.triangles);
+    MeshQueryCounts any;
+    index.meet_any(rays, met, &any);
+    EXPECT_GT(any.nodes, 0U);
+    EXPECT_LE(any.triangles, once.triangles);
+}
+
+} // namespace
+} // namespace vera
