@@ -53,6 +53,7 @@ if(VERA_BUILD_LIBRARY)
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/vera COMPONENT development)
     install(FILES ${PROJECT_BINARY_DIR}/generated/vera.pc
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
+    install(DIRECTORY examples/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples COMPONENT development)
 endif()
 
 set(CPACK_GENERATOR DEB)
