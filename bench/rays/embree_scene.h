@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "vera/scene/scene.h"
-
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <string>
-#include <vector>
 
+#include "float_geometry.h"
 #include <embree3/rtcore.h>
 
 namespace vera {
@@ -17,15 +14,18 @@ namespace vera {
 /// How much time Embree spends on building.
 enum class EmbreeQuality { medium, high };
 
-/// Whether Embree looks that no ray slips through an edge.
+/// Whether Embree looks that no ray slips through an edge (its robust flag).
 enum class EmbreeEdges { fast, robust };
 
 struct EmbreeSettings {
     EmbreeQuality quality = EmbreeQuality::medium;
     EmbreeEdges edges = EmbreeEdges::fast;
+
+    friend bool operator==(const EmbreeSettings&, const EmbreeSettings&) = default;
 };
 
-const char* name_of(EmbreeQuality quality);
+/// As in "Embree high robust".
+std::string name_of(const EmbreeSettings& settings);
 
 /// Embree's library, with so many threads.
 class EmbreeDevice {
@@ -47,23 +47,11 @@ private:
     std::atomic<std::int64_t> bytes_ = 0;
 };
 
-/// The corners and triangles, and the spheres, of a scene, as Embree reads them. Embree refers to
-/// them, as our indexes refer to the scene.
-struct EmbreeInput {
-    std::vector<float> corners;           ///< three each, and one more: Embree reads four at a time
-    std::vector<std::uint32_t> triangles; ///< three corners each
-    std::vector<float> spheres;           ///< x, y, z and radius each
-};
-
-/// Throws std::runtime_error for a scene with more than meshes, triangles, patches, convex polygons
-/// and spheres.
-EmbreeInput embree_input(const Scene& scene);
-
 /// What Embree finds rays' hits with.
 class EmbreeScene {
 public:
     /// Builds; device and input must outlive the scene.
-    EmbreeScene(EmbreeDevice& device, const EmbreeInput& input, const EmbreeSettings& settings);
+    EmbreeScene(EmbreeDevice& device, const FloatGeometry& input, const EmbreeSettings& settings);
     ~EmbreeScene();
     EmbreeScene(const EmbreeScene&) = delete;
     EmbreeScene& operator=(const EmbreeScene&) = delete;

@@ -3,7 +3,6 @@
 
 #include "vera/base/check.h"
 #include "vera/math/box3.h"
-#include "vera/math/elementary.h"
 
 #include <algorithm>
 #include <array>
@@ -12,39 +11,13 @@
 #include <utility>
 #include <vector>
 
+#include "directions.h"
 #include "lattice.h"
+#include "round_shapes.h"
 
 namespace vera {
 
 namespace {
-
-/// Two unit vectors that make a right angle with a direction and with each other.
-struct Across {
-    Vec3 right;
-    Vec3 forward;
-};
-
-Across across(Vec3 direction) {
-    const Vec3 other = std::abs(direction.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
-    const Vec3 right = normalized(cross(direction, other));
-    return {right, cross(direction, right)};
-}
-
-/// The unit vector at an angle from the first of the two.
-Vec3 turned(const Across& plane, double angle) {
-    return cos_degrees(angle) * plane.right + sin_degrees(angle) * plane.forward;
-}
-
-/// The direction bent away from itself by an angle, to the side that another angle gives.
-Vec3 bent(Vec3 direction, double angle, double turn) {
-    return normalized(
-        cos_degrees(angle) * direction + sin_degrees(angle) * turned(across(direction), turn));
-}
-
-double degrees(std::size_t i, std::size_t count) {
-    // A whole turn is exactly 360, so that the lattice closes without a gap.
-    return 360 * static_cast<double>(i) / static_cast<double>(count);
-}
 
 /// Adds the points of the unit sphere round the face, divided into four so many times.
 void add_divided(Mesh& mesh, std::array<Vec3, 3> face, std::uint32_t times) {
@@ -101,27 +74,6 @@ void add_copy(Mesh& mesh, const Mesh& part, double scale, Vec3 shift) {
         mesh.position_indices.push_back(first + corner);
 }
 
-/// Adds a copy of the unit sphere for the sphere and for each on it; the axis points away from the
-/// one that it sits on.
-void add_flake(
-    Mesh& mesh,
-    const Mesh& unit_sphere,
-    const Sphere& sphere,
-    Vec3 axis,
-    std::uint32_t generations) {
-    add_copy(mesh, unit_sphere, sphere.radius, sphere.center);
-    if (generations == 0)
-        return;
-    // Six round the equator and three above it, where the parent is not.
-    for (std::size_t i = 0; i < 9; ++i) {
-        const double from_pole = i < 6 ? 90 : 35;
-        const double turn = i < 6 ? degrees(i, 6) : degrees(2 * i + 1, 6);
-        const Vec3 direction = bent(axis, from_pole, turn);
-        const Vec3 center = sphere.center + (4.0 / 3 * sphere.radius) * direction;
-        add_flake(mesh, unit_sphere, {center, sphere.radius / 3}, direction, generations - 1);
-    }
-}
-
 /// A flat piece of so many by so many quadrangles.
 void add_parallelogram(Mesh& mesh, Vec3 corner, Vec3 right, Vec3 up, std::size_t pieces) {
     const auto n = static_cast<double>(pieces);
@@ -154,8 +106,10 @@ void add_column(Mesh& mesh, Vec3 foot, double height, std::size_t segments) {
 } // namespace
 
 Mesh tessellated(const Sphereflake& flake) {
+    const Mesh unit = unit_sphere(flake.divisions);
     Mesh mesh;
-    add_flake(mesh, unit_sphere(flake.divisions), {{0, 0, 0}, 0.5}, {0, 0, 1}, flake.generations);
+    for (const Sphere& sphere : flake_spheres(flake.generations))
+        add_copy(mesh, unit, sphere.radius, sphere.center);
     return mesh;
 }
 

@@ -39,11 +39,11 @@ Vec3 facing_normal(const SurfacePoint& surface, const Ray& seen_along) {
     return outside ? surface.geometric_normal : -surface.geometric_normal;
 }
 
-/// Beside the face by some roundings of a float. A step along the normal, unlike a smallest t, is
-/// enough however flat the ray leaves.
-Vec3 float_start(const SurfacePoint& surface, Vec3 normal) {
+/// Beside the face. A step along the normal, unlike a smallest t, is enough however flat the ray
+/// leaves.
+Vec3 float_start(const SurfacePoint& surface, Vec3 normal, double beside) {
     const double size = std::max(max_component(abs(surface.point)), 1e-3);
-    return surface.point + (0x1p-20 * size) * normal;
+    return surface.point + (beside * size) * normal;
 }
 
 QueryRay leaving(const SurfacePoint& surface, Vec3 direction) {
@@ -99,7 +99,7 @@ RaySet shadow_rays(const Scene& scene, const PrimaryHits& hits) {
         query.ray.t_max = 1;
         if (!(dot(query.ray.direction, normal) > 0))
             return;
-        const Vec3 start = float_start(surface, normal);
+        const Vec3 start = float_start(surface, normal, hits.beside);
         add(set, query, start, light - start);
     });
     return set;
@@ -117,7 +117,10 @@ RaySet diffuse_rays(const PrimaryHits& hits) {
             const Vec3 on_sphere = {
                 radius * cos_degrees(angle), radius * sin_degrees(angle), height};
             const Vec3 direction = rounded(normalized(on_sphere + 1.0001 * normal));
-            add(set, leaving(surface, direction), float_start(surface, normal), direction);
+            add(set,
+                leaving(surface, direction),
+                float_start(surface, normal, hits.beside),
+                direction);
         });
     return set;
 }
@@ -147,7 +150,7 @@ RaySet mirrored_rays(const Scene& scene, const PrimaryHits& hits) {
         // What the waves would send into the surface is mirrored out of it again.
         const double into = std::min(dot(mirrored, normal), 0.0);
         const Vec3 direction = rounded(normalized(mirrored - (2.01 * into) * normal));
-        add(set, leaving(surface, direction), float_start(surface, normal), direction);
+        add(set, leaving(surface, direction), float_start(surface, normal, hits.beside), direction);
     });
     return set;
 }
@@ -160,9 +163,11 @@ const std::vector<std::string>& ray_set_names() {
     return names;
 }
 
-PrimaryHits primary_hits(const Scene& scene, const RayIndex& index, std::size_t raster) {
+PrimaryHits
+primary_hits(const Scene& scene, const RayIndex& index, std::size_t raster, double beside) {
     VERA_CHECK(scene.camera.has_value());
     PrimaryHits result;
+    result.beside = beside;
     result.rays = primary_rays(*scene.camera, raster);
     const std::vector<QueryRay>& rays = result.rays.queries;
     std::vector<Hit> hits(rays.size());

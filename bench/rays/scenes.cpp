@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenes.h"
 
+#include "vera/base/check.h"
 #include "vera/base/diagnostic.h"
 #include "vera/formats/mesh_file.h"
 #include "vera/formats/read_scene.h"
@@ -13,6 +14,7 @@
 #include <utility>
 
 #include "meshes.h"
+#include "round_shapes.h"
 
 namespace vera {
 
@@ -38,21 +40,40 @@ Camera camera_at(Vec3 eye, Vec3 target, double half_field, Vec3 up = {0, 1, 0}) 
     return camera;
 }
 
+/// Adds the item that the last thing of a kind is.
+void add_item(Scene& scene, ItemKind kind, std::size_t count) {
+    Item item;
+    item.kind = kind;
+    item.index = static_cast<std::uint32_t>(count - 1);
+    scene.geometry.items.push_back(item);
+}
+
 Scene scene_of(Mesh mesh) {
     round_to_floats(mesh);
     Scene scene;
     scene.geometry.meshes.push_back(std::move(mesh));
-    Item item;
-    item.kind = ItemKind::mesh;
-    scene.geometry.items.push_back(item);
+    add_item(scene, ItemKind::mesh, 1);
     number_primitives(scene);
     return scene;
 }
 
-Scene scene_of(Mesh mesh, const Camera& camera, Vec3 light) {
-    Scene scene = scene_of(std::move(mesh));
+Scene seen_from(Scene scene, const Camera& camera, Vec3 light) {
     scene.camera = camera;
     scene.lights.push_back({light, 1, {1, 1, 1}, Falloff::none});
+    return scene;
+}
+
+Scene scene_of(Mesh mesh, const Camera& camera, Vec3 light) {
+    return seen_from(scene_of(std::move(mesh)), camera, light);
+}
+
+Scene scene_of(const std::vector<Sphere>& spheres) {
+    Scene scene;
+    for (const Sphere& sphere : spheres) {
+        scene.geometry.spheres.push_back(sphere);
+        add_item(scene, ItemKind::sphere, scene.geometry.spheres.size());
+    }
+    number_primitives(scene);
     return scene;
 }
 
@@ -74,9 +95,12 @@ std::optional<Scene> bunny(BenchSize) {
     return scene;
 }
 
-std::optional<Scene> flake(const Sphereflake& size) {
-    const Camera camera = camera_at({2.1, 1.3, 1.7}, {0, 0, 0.06}, 0.34, {0, 0, 1});
-    return scene_of(tessellated(size), camera, {4, 3, 2});
+Camera camera_at_flake() {
+    return camera_at({2.1, 1.3, 1.7}, {0, 0, 0.06}, 0.34, {0, 0, 1});
+}
+
+Scene flake(const Sphereflake& size) {
+    return scene_of(tessellated(size), camera_at_flake(), {4, 3, 2});
 }
 
 std::optional<Scene> hall(BenchSize size) {
@@ -98,11 +122,9 @@ std::optional<Scene> stadium(BenchSize size) {
         std::move(mesh), camera_at(middle + Vec3{0.2, 0.07, 0.5}, middle, 0.4), {40, 50, 30});
 }
 
-std::optional<Scene> mountain(BenchSize size) {
+Scene mountain(std::size_t side) {
     return scene_of(
-        mountain_mesh(size == BenchSize::full ? 512 : 64),
-        camera_at({0.4, 1.1, 1.9}, {0.05, 0.05, 0.05}, 0.36),
-        {2, 1.5, 0.5});
+        mountain_mesh(side), camera_at({0.4, 1.1, 1.9}, {0.05, 0.05, 0.05}, 0.36), {2, 1.5, 0.5});
 }
 
 std::optional<Scene> tree(BenchSize size) {
@@ -122,6 +144,38 @@ std::optional<Scene> standard_scene(const char* name) {
     return scene;
 }
 
+std::optional<Scene> balls(BenchSize size) {
+    return seen_from(
+        scene_of(flake_spheres(size == BenchSize::full ? 5 : 3)), camera_at_flake(), {4, 3, 2});
+}
+
+std::optional<Scene> shells(BenchSize size) {
+    return seen_from(
+        scene_of(shell_spheres(size == BenchSize::full ? 8 : 5)),
+        camera_at({-6, -60, 35}, {0, 8, -15}, 0.41, {0, 0, 1}),
+        {-100, -100, 100});
+}
+
+std::optional<Scene> goblets(BenchSize size) {
+    const std::size_t side = size == BenchSize::full ? 7 : 3;
+    Scene scene;
+    for (const RotationalShape& shape : goblet_shapes(side)) {
+        scene.geometry.rotational_shapes.push_back(shape);
+        add_item(scene, ItemKind::rotational_shape, scene.geometry.rotational_shapes.size());
+    }
+    const auto reach = static_cast<double>(side);
+    scene.geometry.triangles = {
+        {{Vec3{-reach, 0, -reach}, Vec3{-reach, 0, reach}, Vec3{reach, 0, reach}}},
+        {{Vec3{-reach, 0, -reach}, Vec3{reach, 0, reach}, Vec3{reach, 0, -reach}}}};
+    add_item(scene, ItemKind::triangle, 1);
+    add_item(scene, ItemKind::triangle, 2);
+    number_primitives(scene);
+    return seen_from(
+        std::move(scene),
+        camera_at({0.6 * reach, 0.6 * reach, 0.9 * reach}, {0, 0.5, 0}, 0.4),
+        {0.5 * reach, 1.5 * reach, 0.2 * reach});
+}
+
 /// How a scene is made, and whether it is measured unless another is named.
 struct Recipe {
     const char* name;
@@ -137,22 +191,43 @@ const std::vector<Recipe>& recipes() {
         {"flake",
          triangles,
          true,
-         [](BenchSize size) {
+         [](BenchSize size) -> std::optional<Scene> {
              return flake({size == BenchSize::full ? 4U : 2U, 2});
          }},
         {"hall", triangles, true, hall},
         {"stadium", triangles, true, stadium},
-        {"mountain", triangles, true, mountain},
+        {"mountain",
+         triangles,
+         true,
+         [](BenchSize size) -> std::optional<Scene> {
+             return mountain(size == BenchSize::full ? 512 : 64);
+         }},
         {"tree", triangles, true, tree},
         {"balls_4", spheres, true, [](BenchSize) { return standard_scene("balls_4.nff"); }},
+        {"balls_5", spheres, true, balls},
         {"shells_5", spheres, true, [](BenchSize) { return standard_scene("shells_5.nff"); }},
-        {"flake_large", triangles, false, [](BenchSize size) {
+        {"shells_8", spheres, true, shells},
+        {"goblets", rotational, true, goblets},
+        {"flake_large", triangles, false, [](BenchSize size) -> std::optional<Scene> {
              return flake({size == BenchSize::full ? 5U : 3U, 2});
          }}};
     return all;
 }
 
 } // namespace
+
+const char* name_of(BenchSceneKind kind) {
+    switch (kind) {
+    case BenchSceneKind::triangles:
+        return "triangles";
+    case BenchSceneKind::spheres:
+        return "spheres";
+    case BenchSceneKind::rotational:
+        return "rotational shapes";
+    }
+    VERA_CHECK(false);
+    return "";
+}
 
 std::vector<std::string> bench_scene_names() {
     std::vector<std::string> names;
@@ -177,7 +252,22 @@ std::optional<BenchScene> bench_scene(const std::string& name, BenchSize size) {
     auto scene = recipe->make(size);
     if (!scene)
         return std::nullopt;
-    return BenchScene{name, recipe->kind, std::move(*scene)};
+    BenchScene result;
+    result.name = name;
+    result.kind = recipe->kind;
+    result.scene = std::move(*scene);
+    // Flat sides lie within the round ones by up to 3e-4 of the radius, which is less than 0.5.
+    if (result.kind == BenchSceneKind::rotational)
+        result.beside = 2e-4;
+    return result;
+}
+
+BenchScene mountain_of(std::size_t side) {
+    return {"mountain", BenchSceneKind::triangles, mountain(side), {}, usually_beside};
+}
+
+BenchScene flake_of(const Sphereflake& size) {
+    return {"flake", BenchSceneKind::triangles, flake(size), {}, usually_beside};
 }
 
 } // namespace vera

@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: Apache-2.0
+# What "./dev bench" does. Read by dev, whose functions it uses.
+
+bench_usage() {
+    cat <<'TEXT'
+./dev bench              all of these, in this order; some hours on a quiet machine
+./dev bench peers ...    whole pictures, against POV-Ray
+./dev bench rays ...     builds and rays a second, against Embree
+./dev bench growth ...   how times and counted steps grow with the number of triangles
+./dev bench billion ...  a scene of a billion triangles in less than a gigabyte
+./dev bench plots ...    plots and tables of docs/performance.md from the results
+./dev bench PART --help  says what the part takes
+
+Results are kept by machine in bench/results/. Models and scenes that are not in the repository are
+looked for in the folders that VERA_MODELS and VERA_SCENES name; what needs one is left out.
+TEXT
+}
+
+bench_peers() {
+    # shellcheck disable=SC2046 # one option or none
+    step "build" build release $(without_tests) -- vera
+    step "compare with POV-Ray" bench/peers "$@"
+}
+
+# Builds a program of the benchmarks.
+build_benchmark() {
+    # shellcheck disable=SC2046 # one option or none
+    step "build" build release $(without_tests) -DVERA_BUILD_BENCHMARKS=ON -- "$1"
+}
+
+bench_rays() {
+    build_benchmark rays_bench
+    step "compare with Embree" bench/against_embree rays "$@"
+}
+
+bench_growth() {
+    build_benchmark growth_bench
+    step "measure the growth" bench/against_embree growth "$@"
+}
+
+bench_billion() {
+    # shellcheck disable=SC2046 # one option or none
+    step "build" build release $(without_tests) -- vera
+    step "render a billion triangles" bench/billion "$@"
+}
+
+bench_plots() {
+    step "plots and tables" bench/plots.py "$@"
+}
+
+bench() {
+    case ${1:-} in
+    --help | -h) bench_usage ;;
+    peers | rays | growth | billion | plots)
+        step "install packages" install_packages build bench
+        "bench_$1" "${@:2}"
+        ;;
+    "")
+        step "install packages" install_packages build bench
+        bench_peers
+        bench_rays
+        bench_growth
+        bench_billion
+        bench_plots
+        ;;
+    *)
+        bench_usage >&2
+        fail "bench has no '$1'"
+        ;;
+    esac
+}
