@@ -3,6 +3,7 @@
 #include "vera/accel/simd_level.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -22,8 +23,10 @@ using detail::BoxTree;
 using detail::build_box_tree;
 using detail::FloatBox;
 using detail::TreeChild;
+using detail::TreeEffort;
 using detail::WideNode;
 
+constexpr std::array both_efforts = {TreeEffort::usual, TreeEffort::high};
 constexpr float infinite = std::numeric_limits<float>::infinity();
 
 FloatBox box_of(const WideNode& node, std::size_t child) {
@@ -156,23 +159,40 @@ auto key(const BoxReference& reference) {
     return std::tuple(reference.element, reference.kind, reference.lower, reference.upper);
 }
 
-void expect_good_tree(const std::vector<BoxReference>& references, const std::string& what) {
-    for (const std::size_t leaf_size : {1U, 4U, 8U}) {
-        SCOPED_TRACE(what + ", leaves of " + std::to_string(leaf_size));
-        const BoxTree tree = build_box_tree(references, leaf_size, nullptr);
-        auto expected = references;
-        auto sorted = tree.references;
-        const auto before = [](const auto& a, const auto& b) { return key(a) < key(b); };
-        std::sort(expected.begin(), expected.end(), before);
-        std::sort(sorted.begin(), sorted.end(), before);
-        EXPECT_TRUE(std::equal(
-            expected.begin(),
-            expected.end(),
-            sorted.begin(),
-            sorted.end(),
-            [](const auto& a, const auto& b) { return key(a) == key(b); }));
-        Inspection(tree, leaf_size).inspect();
+void expect_good_tree(
+    const std::vector<BoxReference>& references, std::size_t leaf_size, TreeEffort effort) {
+    SCOPED_TRACE("leaves of " + std::to_string(leaf_size));
+    const BoxTree tree = build_box_tree(references, leaf_size, nullptr, effort);
+    auto expected = references;
+    auto sorted = tree.references;
+    const auto before = [](const auto& a, const auto& b) { return key(a) < key(b); };
+    std::sort(expected.begin(), expected.end(), before);
+    std::sort(sorted.begin(), sorted.end(), before);
+    EXPECT_TRUE(std::equal(
+        expected.begin(),
+        expected.end(),
+        sorted.begin(),
+        sorted.end(),
+        [](const auto& a, const auto& b) { return key(a) == key(b); }));
+    Inspection(tree, leaf_size).inspect();
+}
+
+void expect_good_trees(const std::vector<BoxReference>& references, const std::string& what) {
+    for (const TreeEffort effort : both_efforts) {
+        SCOPED_TRACE(what + (effort == TreeEffort::high ? ", high effort" : ", usual effort"));
+        for (const std::size_t leaf_size : {1U, 4U, 8U})
+            expect_good_tree(references, leaf_size, effort);
     }
+}
+
+/// Of all nodes and leaves: how much lines have to do with the tree.
+double sum_of_surfaces(const BoxTree& tree) {
+    double sum = 0;
+    for (const WideNode& node : tree.nodes)
+        for (std::size_t i = 0; i < detail::tree_width; ++i)
+            if (const FloatBox box = box_of(node, i); !is_empty(box))
+                sum += static_cast<double>(surface(box));
+    return sum;
 }
 
 /// References drawn from few values, so that many coincide, are flat, or lie in a line.
@@ -208,26 +228,26 @@ std::vector<BoxReference> scattered_references(std::uint32_t seed, std::size_t c
 }
 
 TEST(BoxTree, OfNothingHasNoNodes) {
-    expect_good_tree({}, "nothing");
+    expect_good_trees({}, "nothing");
 }
 
 TEST(BoxTree, HoldsFewReferences) {
     for (std::size_t count = 1; count <= 20; ++count) {
-        expect_good_tree(scattered_references(1, count), std::to_string(count) + " scattered");
-        expect_good_tree(
+        expect_good_trees(scattered_references(1, count), std::to_string(count) + " scattered");
+        expect_good_trees(
             drawn_references(2, count, {0, 1}, {0, 1}, 3),
             std::to_string(count) + " of few values");
     }
 }
 
 TEST(BoxTree, HoldsManyReferences) {
-    expect_good_tree(scattered_references(3, 30000), "scattered");
-    expect_good_tree(drawn_references(4, 3000, {-1, 0, 1, 2}, {0, 0.5F, 3}, 7), "of few values");
+    expect_good_trees(scattered_references(3, 30000), "scattered");
+    expect_good_trees(drawn_references(4, 3000, {-1, 0, 1, 2}, {0, 0.5F, 3}, 7), "of few values");
 }
 
 TEST(BoxTree, HoldsReferencesThatNoCutTellsApart) {
-    expect_good_tree(drawn_references(5, 3000, {1}, {0}, 1), "one point");
-    expect_good_tree(drawn_references(6, 3000, {1}, {0.5F}, 7), "one box of many kinds");
+    expect_good_trees(drawn_references(5, 3000, {1}, {0}, 1), "one point");
+    expect_good_trees(drawn_references(6, 3000, {1}, {0.5F}, 7), "one box of many kinds");
 }
 
 TEST(BoxTree, HoldsReferencesInALine) {
@@ -235,14 +255,14 @@ TEST(BoxTree, HoldsReferencesInALine) {
     for (BoxReference& reference : references)
         for (const std::size_t axis : {0U, 2U})
             reference.lower[axis] = reference.upper[axis] = 1;
-    expect_good_tree(references, "in a line");
+    expect_good_trees(references, "in a line");
 }
 
 TEST(BoxTree, HoldsReferencesOfEverySize) {
-    expect_good_tree(
+    expect_good_trees(
         drawn_references(8, 3000, {-infinite, 0, 1, 3e38F, -3e38F}, {0, 1, 3e38F}, 2),
         "up to infinite");
-    expect_good_tree(
+    expect_good_trees(
         drawn_references(9, 3000, {-3e38F, 1e-45F, -1e-38F, 0, 1e-30F}, {0, 1e-45F, infinite}, 2),
         "very small and infinite");
     std::vector<BoxReference> references = scattered_references(10, 3000);
@@ -251,18 +271,46 @@ TEST(BoxTree, HoldsReferencesOfEverySize) {
             references[i].lower[axis] = -infinite;
             references[i].upper[axis] = infinite;
         }
-    expect_good_tree(references, "some hold everything");
+    expect_good_trees(references, "some hold everything");
 }
 
 TEST(BoxTree, BoundsItsDepthWhereSizesShrinkWithoutEnd) {
     std::vector<BoxReference> references(80);
     float size = 1;
     for (BoxReference& reference : references) {
+        reference.element = static_cast<std::uint32_t>(&reference - references.data());
         reference.lower = {size, 0, 0};
         reference.upper = {1.3F * size, size, size};
         size /= 3;
     }
-    expect_good_tree(references, "shrinking");
+    expect_good_trees(references, "shrinking");
+}
+
+TEST(BoxTree, BoundsItsDepthWhereBoxesLieInEachOther) {
+    std::vector<BoxReference> references(2000);
+    for (std::uint32_t i = 0; i < references.size(); ++i) {
+        references[i].element = i;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            references[i].lower[axis] = -1 - static_cast<float>(i);
+            references[i].upper[axis] = 1 + static_cast<float>(i);
+        }
+    }
+    expect_good_trees(references, "in each other");
+}
+
+TEST(BoxTree, CutsManySmallBoxesIntoPartsThatHardlyOverlap) {
+    const BoxTree tree = build_box_tree(scattered_references(18, 300000), 8, nullptr);
+    float sum = 0;
+    for (std::size_t i = 0; i < detail::tree_width; ++i) {
+        const FloatBox box = box_of(tree.nodes[0], i);
+        if (is_empty(box))
+            continue;
+        float volume = 1;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            volume *= box.upper[axis] - box.lower[axis];
+        sum += volume;
+    }
+    EXPECT_LT(sum, 1.1F * 8);
 }
 
 void expect_same(const BoxTree& tree, const BoxTree& expected, const std::string& what) {
@@ -282,14 +330,17 @@ void expect_same(const BoxTree& tree, const BoxTree& expected, const std::string
 
 TEST(BoxTree, IsTheSameWhateverTheNumberOfThreads) {
     const std::vector<BoxReference> references = scattered_references(11, 200000);
-    const BoxTree expected = [&] {
-        const ThreadLimit limit(1);
-        return build_box_tree(references, 8, nullptr);
-    }();
-    Inspection(expected, 8).inspect();
-    for (const std::size_t threads : {2U, 7U}) {
-        const ThreadLimit limit(threads);
-        expect_same(build_box_tree(references, 8, nullptr), expected, std::to_string(threads));
+    for (const TreeEffort effort : both_efforts) {
+        const BoxTree expected = [&] {
+            const ThreadLimit limit(1);
+            return build_box_tree(references, 8, nullptr, effort);
+        }();
+        Inspection(expected, 8).inspect();
+        for (const std::size_t threads : {2U, 7U}) {
+            const ThreadLimit limit(threads);
+            const BoxTree tree = build_box_tree(references, 8, nullptr, effort);
+            expect_same(tree, expected, std::to_string(threads) + " threads");
+        }
     }
 }
 
@@ -307,10 +358,45 @@ TEST(BoxTree, IsTheSameWithEveryInstructionSet) {
     }
 }
 
+/// Cubes in as many rows along each axis, which do not touch.
+std::vector<BoxReference> cubes(std::uint32_t rows) {
+    std::vector<BoxReference> references(std::size_t{rows} * rows * rows);
+    for (std::uint32_t i = 0; i < references.size(); ++i) {
+        references[i].element = i;
+        const std::array<std::uint32_t, 3> place = {i % rows, i / rows % rows, i / rows / rows};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            references[i].lower[axis] = static_cast<float>(place[axis]);
+            references[i].upper[axis] = references[i].lower[axis] + 0.5F;
+        }
+    }
+    return references;
+}
+
+TEST(BoxTree, FillsItsNodes) {
+    for (const TreeEffort effort : both_efforts) {
+        EXPECT_EQ(build_box_tree(cubes(2), 1, nullptr, effort).nodes.size(), 1U);
+        EXPECT_EQ(build_box_tree(cubes(4), 1, nullptr, effort).nodes.size(), 9U);
+        EXPECT_EQ(build_box_tree(cubes(8), 1, nullptr, effort).nodes.size(), 73U);
+        EXPECT_EQ(build_box_tree(cubes(8), 8, nullptr, effort).nodes.size(), 9U);
+    }
+}
+
+TEST(BoxTree, IsBetterWithHighEffort) {
+    // Large boxes among small ones: cuts can only be good for either.
+    std::vector<BoxReference> references = scattered_references(16, 20000);
+    for (const BoxReference& large :
+         drawn_references(17, 500, {-1, -0.5F, 0, 0.3F}, {0.1F, 0.7F}, 1))
+        references.push_back(large);
+    const BoxTree usual = build_box_tree(references, 8, nullptr, TreeEffort::usual);
+    const BoxTree high = build_box_tree(references, 8, nullptr, TreeEffort::high);
+    EXPECT_LT(sum_of_surfaces(high), 0.97 * sum_of_surfaces(usual));
+}
+
 TEST(BoxTree, CanBeInterrupted) {
     CancelFlag cancel;
     cancel.raise();
-    EXPECT_THROW(build_box_tree(scattered_references(12, 1000), 4, &cancel), Cancelled);
+    for (const TreeEffort effort : both_efforts)
+        EXPECT_THROW(build_box_tree(scattered_references(12, 1000), 4, &cancel, effort), Cancelled);
 }
 
 } // namespace

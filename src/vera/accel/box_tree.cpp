@@ -3,6 +3,7 @@
 
 #include "vera/accel/box_tree_cuts.h"
 #include "vera/accel/box_tree_nodes.h"
+#include "vera/accel/box_tree_reinsertion.h"
 #include "vera/base/check.h"
 
 #include <algorithm>
@@ -17,8 +18,7 @@ namespace vera::detail {
 
 namespace {
 
-using Pair = std::array<BinaryNode, 2>;
-using Pairs = std::deque<Pair>; // which stay where they are while others are added
+using Nodes = std::deque<BinaryNode>; // which stay where they are while others are added
 
 /// A part of the tree that is cut up later, on any thread.
 struct Deferred {
@@ -27,42 +27,58 @@ struct Deferred {
     BinaryNode* root = nullptr;
 };
 
+void fill_costs_below(BinaryNode& node) {
+    if (!node.is_leaf())
+        for (BinaryNode* child : node.children)
+            fill_costs_below(*child);
+    fill_costs(node);
+}
+
 class Builder {
 public:
     Builder(std::vector<BoxReference>& references, std::size_t leaf_size, const CancelFlag* cancel)
         : references_(references)
         , leaf_size_(leaf_size)
-        , cancel_(cancel) {
-        // About so many subtrees for the threads, their number not depending on
-        // that of the threads: the tree is always the same.
+        , cancel_(cancel) {}
+
+    void build(TreeEffort effort) {
+        // About so many subtrees for the threads, their number not depending on that of the
+        // threads: the tree is always the same.
         constexpr std::size_t subtrees = 64;
         constexpr std::size_t least = 2048;
         const std::size_t subtree_size = std::max(least, references_.size() / subtrees);
         std::vector<Deferred> deferred;
-        grow(
-            root_,
-            range_of(references_, 0, references_.size()),
-            0,
-            {top_, subtree_size, &deferred});
-        pairs_.resize(deferred.size());
+        BinaryNode& root = top_.emplace_back();
+        const ReferenceRange all = range_of(references_, 0, references_.size());
+        grow(root, all, 0, {top_, subtree_size, &deferred});
+        below_.resize(deferred.size());
         parallel_ranges(deferred.size(), 1, [&](std::size_t first, std::size_t last) {
-            for (std::size_t i = first; i < last; ++i)
-                grow(*deferred[i].root, deferred[i].range, deferred[i].depth, {pairs_[i]});
+            for (std::size_t i = first; i < last; ++i) {
+                const Deferred& part = deferred[i];
+                grow(*part.root, part.range, part.depth, {below_[i]});
+                if (effort == TreeEffort::high)
+                    reinsert_nodes(*part.root, 1, cancel_);
+            }
         });
-        for (auto pair = top_.rbegin(); pair != top_.rend(); ++pair)
-            for (BinaryNode& node : *pair)
-                if (node.children != nullptr)
-                    fill_costs(node);
-        if (!top_.empty())
-            fill_costs(root_);
+        // Children stand behind their parents.
+        std::for_each(top_.rbegin(), top_.rend(), [](BinaryNode& node) {
+            if (!node.is_leaf())
+                finish(node);
+        });
+        if (effort == TreeEffort::high) {
+            // What is large may belong into another subtree.
+            constexpr double largest = 0.05;
+            reinsert_nodes(root, largest, cancel_);
+            fill_costs_below(root);
+        }
     }
 
-    const BinaryNode& root() const { return root_; }
+    const BinaryNode& root() const { return top_.front(); }
 
 private:
     /// Where a part of the tree is put.
     struct Part {
-        Pairs& pairs;
+        Nodes& nodes;
         std::size_t deferred_size = 0; ///< so few references are deferred
         std::vector<Deferred>* deferred = nullptr;
     };
@@ -96,8 +112,7 @@ private:
                 begin, end, [&](const BoxReference& reference) { return reference.kind == kind; });
             return cut_at(range, static_cast<std::size_t>(middle - references_.begin()));
         }
-        // Where cuts by surface have led so deep, only halving keeps below the last
-        // level.
+        // Where cuts by surface have led so deep, only halving keeps below the last level.
         constexpr std::size_t last_level = most_tree_levels - 2 * tree_width;
         if (depth + static_cast<std::size_t>(std::bit_width(range.size())) < last_level)
             if (const auto found = halves_by_surface(references_, range))
@@ -105,8 +120,7 @@ private:
         return cut_at(range, range.first + range.size() / 2);
     }
 
-    /// Makes the node of a range, so many levels below the root, and what is
-    /// below it.
+    /// Makes the node of a range, so many levels below the root, and what is below it.
     void grow(BinaryNode& node, const ReferenceRange& range, std::size_t depth, const Part& part) {
         if (cancel_ != nullptr)
             cancel_->throw_if_raised();
@@ -115,45 +129,56 @@ private:
             return;
         }
         node.box = range.box.box();
-        node.first = static_cast<std::uint32_t>(range.first);
-        node.size = static_cast<std::uint32_t>(range.size());
         if (is_leaf(range)) {
-            float content = 0;
+            node.first = static_cast<std::uint32_t>(range.first);
+            node.size = static_cast<std::uint32_t>(range.size());
             for (const BoxReference& reference : references_of(range))
-                content += surface(reference.box());
-            fill_costs_of_leaf(node, content);
+                node.content += surface(reference.box());
+            fill_costs(node);
             return;
         }
         const auto [left, right] = halves(range, depth);
-        Pair& children = part.pairs.emplace_back();
-        node.children = children.data();
-        grow(children[0], left, depth + 1, part);
-        grow(children[1], right, depth + 1, part);
+        for (BinaryNode*& child : node.children) {
+            child = &part.nodes.emplace_back();
+            child->parent = &node;
+        }
+        grow(*node.children[0], left, depth + 1, part);
+        grow(*node.children[1], right, depth + 1, part);
         if (part.deferred == nullptr)
-            fill_costs(node);
+            finish(node);
+    }
+
+    /// What follows from the node's children.
+    static void finish(BinaryNode& node) {
+        join_children(node);
+        fill_costs(node);
     }
 
     std::vector<BoxReference>& references_;
     std::size_t leaf_size_;
     const CancelFlag* cancel_;
-    BinaryNode root_;
-    Pairs top_;
-    std::vector<Pairs> pairs_; ///< of the subtrees
+    Nodes top_; ///< the first is the root
+    std::vector<Nodes> below_;
 };
 
 } // namespace
 
 BoxTree build_box_tree(
-    std::vector<BoxReference> references, std::size_t leaf_size, const CancelFlag* cancel) {
+    std::vector<BoxReference> references,
+    std::size_t leaf_size,
+    const CancelFlag* cancel,
+    TreeEffort effort) {
     VERA_CHECK(leaf_size >= 1 && leaf_size <= tree_width);
-    // There are no more nodes than references: each but the root has at least two
-    // children.
+    // There are no more nodes than references: each but the root has at least two children.
     if (references.size() > TreeChild::most)
         throw std::length_error("more references than a tree of boxes can number");
     BoxTree tree;
     tree.references = std::move(references);
-    if (!tree.references.empty())
-        make_wide_nodes(Builder(tree.references, leaf_size, cancel).root(), tree);
+    if (!tree.references.empty()) {
+        Builder builder(tree.references, leaf_size, cancel);
+        builder.build(effort);
+        make_wide_nodes(builder.root(), tree);
+    }
     return tree;
 }
 

@@ -24,8 +24,7 @@ struct FloatBox {
         -std::numeric_limits<float>::infinity()};
 };
 
-/// Half the surface: lines meet a convex box with a probability in proportion
-/// to it.
+/// Half the surface: lines meet a convex box with a probability in proportion to it.
 inline float surface(const FloatBox& box) {
     const float x = box.upper[0] - box.lower[0];
     const float y = box.upper[1] - box.lower[1];
@@ -33,9 +32,8 @@ inline float surface(const FloatBox& box) {
     return x * y + y * z + z * x;
 }
 
-/// What a tree of boxes is made of: something in a box. In memory, what is
-/// neither of the box's corners stands behind each: registers of four numbers
-/// are loaded.
+/// What a tree of boxes is made of: something in a box. In memory, what is neither of the box's
+/// corners stands behind each: registers of four numbers are loaded.
 struct alignas(16) BoxReference {
     std::array<float, 3> lower = FloatBox{}.lower;
     std::uint32_t element = 0;
@@ -46,9 +44,8 @@ struct alignas(16) BoxReference {
     FloatBox box() const { return {lower, upper}; }
 };
 
-/// A tree whose leaves are blocks of references that follow each other: a
-/// block's first() is the number of its first reference, and its kind() is how
-/// many there are, less one.
+/// A tree whose leaves are blocks of references that follow each other: a block's first() is the
+/// number of its first reference, and its kind() is how many there are, less one.
 struct BoxTree {
     std::vector<WideNode> nodes; ///< the first is the root; none where there are no references
     std::vector<BoxReference> references;
@@ -56,10 +53,19 @@ struct BoxTree {
     std::size_t levels = 0;
 };
 
-/// Puts the references into a tree with leaves of at most leaf_size (1 to 8) of
-/// them: the same whatever the number of threads. Throws Cancelled;
-/// std::length_error where there are too many references for TreeChild.
+/// How much work is put into a tree.
+enum class TreeEffort : std::uint8_t {
+    usual,
+    high ///< what does not stand well where cuts have put it is moved
+};
+
+/// Puts the references into a tree with leaves of at most leaf_size (1 to 8) of them: the same
+/// whatever the number of threads. Throws Cancelled; std::length_error where there are too many
+/// references for TreeChild.
 BoxTree build_box_tree(
-    std::vector<BoxReference> references, std::size_t leaf_size, const CancelFlag* cancel);
+    std::vector<BoxReference> references,
+    std::size_t leaf_size,
+    const CancelFlag* cancel,
+    TreeEffort effort = TreeEffort::usual);
 
 } // namespace vera::detail

@@ -12,8 +12,8 @@ namespace vera::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// What fits into a register of the numbers that are computed with together,
-/// which are always four: every machine finds the same.
+/// What fits into a register of the numbers that are computed with together, which are always four:
+/// every machine finds the same.
 using Lanes = hn::CappedTag<float, 4>;
 using V = hn::Vec<Lanes>;
 constexpr std::size_t lanes = hn::MaxLanes(Lanes());
@@ -129,8 +129,7 @@ void fill_bins_kernel(
         for (std::size_t i = 0; i < 4 / lanes; ++i) {
             const V place =
                 hn::Mul(hn::Sub(middle.parts[i], start.parts[i]), bins_per_unit.parts[i]);
-            // A tiny length makes the factor infinite, and 0 times that no number:
-            // counts as 0.
+            // A tiny length makes the factor infinite, and 0 times that no number: counts as 0.
             const V in_bins =
                 hn::IfThenElseZero(hn::Gt(place, hn::Zero(Lanes())), hn::Min(place, last));
             const hn::RebindToSigned<Lanes> integers;
@@ -180,8 +179,7 @@ HWY_INLINE void add_bin(const Bins& bins, std::size_t bin, Side& side) {
         side.counts[axis] += bins.counts[bin][axis];
 }
 
-/// Surface by number. Where there is nothing, it is infinite by 0, which is no
-/// number.
+/// Surface by number. Where there is nothing, it is infinite by 0, which is no number.
 HWY_INLINE Four cost_of(const Side& side) {
     Four counts;
     for (std::size_t i = 0; i < 4 / lanes; ++i) {
@@ -261,8 +259,7 @@ Sides take_sides_kernel(
         const Four middle = middle_of(load(reference));
         alignas(16) float coordinates[4];
         store(middle, coordinates);
-        // As in fill_bins_kernel. No branches, which would be guessed wrongly again
-        // and again.
+        // As in fill_bins_kernel. No branches, which would be guessed wrongly again and again.
         const bool is_left = !((coordinates[axis] - start) * bins_per_unit >= bin);
         const auto all_if_left = hn::Set(integers, -static_cast<std::int32_t>(is_left));
         const auto on_left = hn::MaskFromVec(hn::BitCast(Lanes(), all_if_left));

@@ -12,8 +12,7 @@
 
 namespace vera::detail {
 
-/// A box as it is loaded into registers of four numbers; the fourth ones mean
-/// nothing.
+/// A box as it is loaded into registers of four numbers; the fourth ones mean nothing.
 struct alignas(16) RegisterBox {
     std::array<float, 4> lower;
     std::array<float, 4> upper;
@@ -48,14 +47,14 @@ struct alignas(16) Binning {
             const float length = middles.upper[axis] - start[axis];
             bins_per_unit[axis] = length > 0 ? static_cast<float>(count) / length : 0;
         }
-        // Fourth are the numbers of elements, as floats so small that some
-        // processors are slow at multiplying them.
+        // Fourth are the numbers of elements, as floats so small that some processors are slow at
+        // multiplying them.
         start[3] = 1;
     }
 };
 
-/// The references of a range sorted by their middles: of each bin, along each
-/// axis, the box of those that fall into it, and how many they are.
+/// The references of a range sorted by their middles: of each bin, along each axis, the box of
+/// those that fall into it, and how many they are.
 struct Bins {
     std::array<std::array<RegisterBox, 3>, most_bins> boxes;
     std::array<std::array<std::int32_t, 4>, most_bins> counts;
@@ -69,8 +68,7 @@ struct Cut {
     RegisterBox right = empty_box;
 };
 
-/// What holds the middles of those on each side of a cut, and how many are on
-/// the left.
+/// What holds the middles of those on each side of a cut, and how many are on the left.
 struct Sides {
     RegisterBox left = empty_box;
     RegisterBox right = empty_box;

@@ -11,8 +11,7 @@ namespace vera::detail {
 
 namespace {
 
-/// What a thread takes of the references. The parts do not depend on how many
-/// threads there are.
+/// What a thread takes of the references. The parts do not depend on how many threads there are.
 constexpr std::size_t part_size = std::size_t{1} << 16U;
 
 std::size_t part_count(std::size_t size) {
@@ -64,8 +63,7 @@ struct Piece {
     std::size_t last = 0;
 };
 
-/// Swaps the references of pieces with those of others, which together are as
-/// many.
+/// Swaps the references of pieces with those of others, which together are as many.
 void swap_pieces(
     std::span<BoxReference> references, std::vector<Piece> some, std::vector<Piece> others) {
     struct Swap {

@@ -11,8 +11,7 @@
 
 namespace vera::detail {
 
-/// References [first, last), and what holds their boxes and the doubled middles
-/// of these.
+/// References [first, last), and what holds their boxes and the doubled middles of these.
 struct ReferenceRange {
     std::size_t first = 0;
     std::size_t last = 0;
@@ -28,11 +27,10 @@ range_of(std::span<const BoxReference> references, std::size_t first, std::size_
 
 using Halves = std::pair<ReferenceRange, ReferenceRange>;
 
-/// Cuts a range of the references where lines have the least to do with the
-/// halves, weighed by their surfaces (MacDonald and Booth 1990; in bins, Wald
-/// 2007): reorders it so that those of each half, which is not empty, follow
-/// each other. Nothing where no cut tells any of them apart; their order is
-/// then what it was.
+/// Cuts a range of the references where lines have the least to do with the halves, weighed by
+/// their surfaces (MacDonald and Booth 1990; in bins, Wald 2007): reorders it so that those of each
+/// half, which is not empty, follow each other. Nothing where no cut tells any of them apart; their
+/// order is then what it was.
 std::optional<Halves>
 halves_by_surface(std::span<BoxReference> references, const ReferenceRange& range);
 

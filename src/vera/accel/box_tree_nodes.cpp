@@ -15,27 +15,22 @@ namespace {
 
 constexpr float infinite = std::numeric_limits<float>::infinity();
 
-/// How many of a wide node's children the left of two binary nodes is made
-/// into, where both together are made into so many, and what that costs.
+/// How many children of a WideNode the left one of a binary node is made into, where both are made
+/// into so many, and what that costs.
 struct Share {
     std::size_t left = 1;
     float cost = infinite;
 };
 
-Share best_share(const BinaryNode* nodes, std::size_t children) {
+Share best_share(const BinaryNode& node, std::size_t children) {
+    const auto& [left, right] = node.children;
     Share best;
     for (std::size_t i = 1; i < children; ++i) {
-        const float cost = nodes[0].costs[i - 1] + nodes[1].costs[children - i - 1];
+        const float cost = left->costs[i - 1] + right->costs[children - i - 1];
         if (cost < best.cost)
             best = {i, cost};
     }
     return best;
-}
-
-/// Of a visit; infinite where the box is.
-float cost_of(const FloatBox& box) {
-    const float cost = surface(box);
-    return cost < infinite ? cost : infinite;
 }
 
 WideNode empty_node() {
@@ -62,12 +57,12 @@ struct Children {
 
 /// Adds what the node is made into, as at most so many children.
 void share_out(const BinaryNode& node, std::size_t count, Children& children) {
-    if (node.children != nullptr && count > 1) {
-        const Share share = best_share(node.children, count);
+    if (!node.is_leaf() && count > 1) {
+        const Share share = best_share(node, count);
         // The root is never its own child.
         if (count == tree_width || share.cost <= node.costs[0]) {
-            share_out(node.children[0], share.left, children);
-            share_out(node.children[1], count - share.left, children);
+            share_out(*node.children[0], share.left, children);
+            share_out(*node.children[1], count - share.left, children);
             return;
         }
     }
@@ -82,11 +77,10 @@ struct Deferred {
     const BinaryNode* root = nullptr;
 };
 
-/// The nodes that a part of the tree is made into.
+/// What a part of the tree is made into.
 class WideNodes {
 public:
-    /// Makes the node and what is below it; what has at most deferred_size
-    /// references is deferred.
+    /// Makes the node and what is below it; what has at most deferred_size references is deferred.
     std::size_t make(const BinaryNode& root, std::size_t level, std::size_t deferred_size) {
         levels = std::max(levels, level);
         const std::size_t number = nodes.size();
@@ -99,7 +93,7 @@ public:
             const BinaryNode& child = *children.nodes[i];
             set_box(node, i, child.box);
             fullness[i] = child.content / surface(child.box);
-            if (child.children == nullptr) {
+            if (child.is_leaf()) {
                 node.children[i] = TreeChild::block(child.first, child.size - 1, 1);
                 ++leaves;
             } else if (child.size <= deferred_size) {
@@ -121,18 +115,28 @@ public:
 
 } // namespace
 
-void fill_costs(BinaryNode& node) {
-    const BinaryNode* const children = node.children;
-    node.content = children[0].content + children[1].content;
-    const float alone = cost_of(node.box) + best_share(children, tree_width).cost;
-    node.costs[0] = alone;
-    for (std::size_t i = 2; i < tree_width; ++i)
-        node.costs[i - 1] = std::min(alone, best_share(children, i).cost);
+void join_children(BinaryNode& node) {
+    const BinaryNode& left = *node.children[0];
+    const BinaryNode& right = *node.children[1];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        node.box.lower[axis] = std::min(left.box.lower[axis], right.box.lower[axis]);
+        node.box.upper[axis] = std::max(left.box.upper[axis], right.box.upper[axis]);
+    }
+    node.content = left.content + right.content;
+    node.size = left.size + right.size;
+    node.height = 1 + std::max(left.height, right.height);
 }
 
-void fill_costs_of_leaf(BinaryNode& node, float content) {
-    node.content = content;
-    node.costs.fill(cost_of(node.box));
+void fill_costs(BinaryNode& node) {
+    const float visit = cost_of_visit(node.box);
+    if (node.is_leaf()) {
+        node.costs.fill(visit);
+        return;
+    }
+    const float alone = visit + best_share(node, tree_width).cost;
+    node.costs[0] = alone;
+    for (std::size_t i = 2; i < tree_width; ++i)
+        node.costs[i - 1] = std::min(alone, best_share(node, i).cost);
 }
 
 void make_wide_nodes(const BinaryNode& root, BoxTree& tree) {

@@ -4,6 +4,7 @@
 #include "vera/accel/box_tree.h"
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -12,31 +13,38 @@ namespace vera::detail {
 /// A node of a tree in which each has two children or, as a leaf, none.
 struct BinaryNode {
     FloatBox box;
-    float content = 0;                    ///< the surfaces of the references' boxes
-    const BinaryNode* children = nullptr; ///< two, side by side
-    std::uint32_t first = 0;              ///< reference
-    std::uint32_t size = 0;               ///< in references
-    /// The least sum of the surfaces of the nodes and leaves that the node is
-    /// made into, where it is made into at most 1, 2, ... 7 children of a
-    /// WideNode.
+    float content = 0;                        ///< the surfaces of the references' boxes
+    std::array<BinaryNode*, 2> children = {}; ///< null in a leaf
+    BinaryNode* parent = nullptr;
+    std::uint32_t first = 0;  ///< reference of a leaf
+    std::uint32_t size = 0;   ///< in references
+    std::uint32_t height = 0; ///< of levels below
+    /// The least sum of the surfaces of the nodes and leaves that the node is made into, where it
+    /// is made into at most 1, 2, ... 7 children of a WideNode.
     std::array<float, tree_width - 1> costs = {};
+
+    bool is_leaf() const { return children[0] == nullptr; }
 };
 
-/// Fills in content and costs from those of the children.
+/// Of visiting what is in the box: its surface, and infinite where that is no number.
+inline float cost_of_visit(const FloatBox& box) {
+    const float cost = surface(box);
+    return std::isnan(cost) ? HUGE_VALF : cost;
+}
+
+/// Fills in what follows from the children, without the costs.
+void join_children(BinaryNode& node);
+
+/// Fills in the costs.
 void fill_costs(BinaryNode& node);
 
-/// The same of a leaf, with the surfaces of its references' boxes.
-void fill_costs_of_leaf(BinaryNode& node, float content);
-
-/// Makes the nodes of the tree of those of a tree of two children each, such
-/// that the sum of the surfaces of nodes and leaves is the least (Ylitie,
-/// Karras and Laine 2017).
+/// Makes the nodes of the tree of those of a tree of two children each, such that the sum of the
+/// surfaces of nodes and leaves is the least (Ylitie, Karras and Laine 2017).
 void make_wide_nodes(const BinaryNode& root, BoxTree& tree);
 
-/// Notes in which order rays come to the node's children, of which there are
-/// count. Those of an octant come to them by where the middles of the boxes lie
-/// along the octant's diagonal; those that ask for anything come first to the
-/// ones that are the fullest.
+/// Notes in which order rays come to the node's children, of which there are count. Those of an
+/// octant come to them by where the middles of the boxes lie along the octant's diagonal; those
+/// that ask for anything come first to the ones that are the fullest.
 void set_orders(WideNode& node, std::size_t count, const std::array<float, tree_width>& fullness);
 
 } // namespace vera::detail

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 
 #undef HWY_TARGET_INCLUDE
@@ -28,39 +29,20 @@ HWY_INLINE void put_in_order(V& first, V& second) {
     first = larger;
 }
 
-/// The places of children, the last to come to the largest, with the children's
-/// numbers in their last bits.
+/// Sorts, lane by lane, the largest first.
 template <typename V>
 HWY_INLINE void sort_keys(V (&keys)[tree_width]) {
-    // Batcher 1968, made shorter: 19 comparisons.
-    constexpr std::uint8_t pairs[19][2] = {
-        {0, 2},
-        {1, 3},
-        {4, 6},
-        {5, 7},
-        {0, 4},
-        {1, 5},
-        {2, 6},
-        {3, 7},
-        {0, 1},
-        {2, 3},
-        {4, 5},
-        {6, 7},
-        {2, 4},
-        {3, 5},
-        {1, 4},
-        {3, 6},
-        {1, 2},
-        {3, 4},
-        {5, 6}};
-    for (const auto& pair : pairs)
-        put_in_order(keys[pair[0]], keys[pair[1]]);
+    // The 19 comparisons that suffice for eight (Knuth, volume 3, 5.3.4).
+    constexpr std::uint8_t first[] = {0, 1, 4, 5, 0, 1, 2, 3, 0, 2, 4, 6, 2, 3, 1, 3, 1, 3, 5};
+    constexpr std::uint8_t second[] = {2, 3, 6, 7, 4, 5, 6, 7, 1, 3, 5, 7, 4, 5, 4, 6, 2, 4, 6};
+    for (std::size_t i = 0; i < std::size(first); ++i)
+        put_in_order(keys[first[i]], keys[second[i]]);
 }
 
 constexpr std::uint32_t number_bits = tree_width - 1;
 
-/// Rows of places of the children, one for each order, here made into keys that
-/// differ.
+/// A child's places in the orders, made into keys that differ from those of the others: their last
+/// bits are the child's number. The larger the place, the longer the child is kept waiting.
 HWY_INLINE hn::Vec<Octants> key_of(hn::Vec<Octants> place, std::size_t child, std::size_t count) {
     const Octants d;
     const Bits bits;
@@ -82,7 +64,7 @@ void set_orders_kernel(
     const Octants d;
     const Bits bits;
     using V = hn::Vec<Octants>;
-    alignas(64) std::uint32_t numbers[any_order + octant_count];
+    alignas(64) std::uint32_t numbers[octant_count];
     std::uint64_t upper[tree_width] = {};
     const auto sign = hn::Set(bits, 0x80000000U);
     for (std::size_t first = 0; first < octant_count; first += hn::Lanes(d)) {

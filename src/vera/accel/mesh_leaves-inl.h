@@ -37,9 +37,9 @@ using Triangles = hn::CappedTag<float, mesh_leaf_size>;
 //   7 u [q] |e| |f|        of e, f and q.
 // That of the third side is the second less two of the first: it is off by
 //   9 u |d| (|e| + |f|) ([q] + (|e| + |f|) / 4).
-constexpr float side_rounding = 10 * 0x1p-24F;
-constexpr float speed_rounding = 8 * 0x1p-24F;
-constexpr float depth_rounding = 8 * 0x1p-24F;
+constexpr float side_rounding = 9.5F * 0x1p-24F;
+constexpr float speed_rounding = 7.5F * 0x1p-24F;
+constexpr float depth_rounding = 7.5F * 0x1p-24F;
 
 // What is too small for a usual number loses digits, or all: volumes may be off by this as well. Of
 // a speed, so much that its inverse is finite.
@@ -133,6 +133,10 @@ struct Passing {
     V depth_error;
 };
 
+/// Speeds of more than so many times what they are off by tell where a triangle is met: far more
+/// than mesh_crossing() asks for.
+constexpr float well_known = 16;
+
 /// How rays meet triangles.
 template <typename D>
 struct MeshMeeting {
@@ -154,12 +158,13 @@ meeting_triangle(D d, const Passing<hn::Vec<D>>& passing, hn::Vec<D> t_min, hn::
         hn::Or(hn::Ge(lowest, hn::Neg(passing.side_error)), hn::Le(highest, passing.side_error));
     const auto surely_in_outline =
         hn::Or(hn::Gt(lowest, passing.side_error), hn::Lt(highest, hn::Neg(passing.side_error)));
-    const auto known = hn::Gt(size, hn::Mul(hn::Set(d, 4), passing.speed_error));
+    // Then t is off by at most 1 / (1 - 1 / 16) times what both errors make of it.
+    const auto known = hn::Gt(size, hn::Mul(hn::Set(d, well_known), passing.speed_error));
     const V per_speed = hn::Div(hn::Set(d, 1), passing.speed);
     const V t = hn::Mul(passing.depth, per_speed);
     const V error = hn::Mul(
         hn::MulAdd(hn::Abs(t), passing.speed_error, passing.depth_error),
-        hn::Abs(hn::Mul(hn::Set(d, 1.5F), per_speed)));
+        hn::Abs(hn::Mul(hn::Set(d, 1.07F), per_speed)));
     const V near = hn::Sub(t, error);
     const V far = hn::Add(t, error);
     const auto in_range = hn::And(hn::Ge(far, t_min), hn::Le(near, limit));
@@ -287,10 +292,15 @@ see_triangles(const float* rows, std::size_t size, const BeamWalk& beam, SeenTri
         const auto back = hn::And(
             hn::And(hn::Le(u_middle, u_half), hn::Le(v_middle, v_half)),
             hn::And(hn::Le(w_middle, w_half), hn::Le(speed_middle, speed_half)));
-        const V most_speed = hn::Add(hn::Abs(speed_middle), speed_half);
-        const auto before =
-            hn::Le(hn::Sub(hn::Abs(depth), t_error), hn::Mul(hn::Set(d, beam.limit), most_speed));
-        may |= bits_of(d, hn::And(hn::Or(front, back), before)) << i;
+        const V speed_size = hn::Abs(speed_middle);
+        const auto before = hn::Le(
+            hn::Sub(hn::Abs(depth), t_error),
+            hn::Mul(hn::Set(d, beam.limit), hn::Add(speed_size, speed_half)));
+        // What is seen edge-on is met where its plane need not be: see mesh_crossing().
+        const auto edge_on = hn::Le(
+            hn::Sub(speed_size, speed_half), hn::Mul(hn::Set(d, well_known), n_error));
+        const auto in_range = hn::Or(before, edge_on);
+        may |= bits_of(d, hn::And(hn::Or(front, back), in_range)) << i;
     }
     return may & ((std::uint32_t{1} << size) - 1);
 }

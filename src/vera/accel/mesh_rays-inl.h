@@ -55,6 +55,8 @@ struct RayGroup {
     GroupRow<float> near;
     GroupRow<std::uint32_t> leaf;  ///< TreeChild::first() of its leaf
     GroupRow<std::uint32_t> place; ///< in the leaf: see place_in_leaf()
+    GroupRow<std::uint32_t> doubtful; ///< the last of the lane's Doubtful
+    GroupMask in_doubt = 0;           ///< the lanes that have one
     std::span<const MeshRay> rays;
     GroupMask followed = 0;   ///< the lanes of rays that single precision can follow
     GroupMask met = 0;        ///< where only this is asked: the lanes that surely meet something
@@ -104,6 +106,7 @@ HWY_INLINE void place_group(const MeshTree& tree, GroupMask lanes, RayGroup& gro
     auto largest_direction = hn::Zero(d);
     group.followed = 0;
     group.met = 0;
+    group.in_doubt = 0;
     for (std::size_t i = 0; i < group_size; i += hn::Lanes(d)) {
         auto followed = in_group(d, lanes, i);
         auto size = hn::Zero(d);
@@ -455,7 +458,7 @@ HWY_INLINE bool start_beam(RayGroup& group, bool any, TreeChild* stack, BeamWalk
     }
     beam.limit = largest_limit(group);
     beam.places = plane_places[octant];
-    beam.order = static_cast<std::uint8_t>(any ? any_order : octant);
+    beam.order = static_cast<std::uint8_t>(octant);
     beam.size = 0;
     beam.stack = stack;
     beam.next = TreeChild::node(0);
@@ -700,7 +703,6 @@ HWY_INLINE bool start_single(
     ray.blur = 0;
     ray.near = std::numeric_limits<float>::infinity();
     ray.lane = 0;
-    ray.group = nullptr;
     ray.given = &given;
     start_walk(inverse, 0x1p-20F * (1 + origin_size), any, stack, ray);
     return true;

@@ -33,11 +33,13 @@ constexpr std::size_t rays_at_once = groups_at_once * group_size;
 /// Rays that go alone at a time.
 constexpr std::size_t alone_at_once = 2 * group_size;
 
+/// No number of a Doubtful.
+constexpr std::uint32_t no_doubtful = ~std::uint32_t{0};
+
 /// A triangle that a ray may meet, of which single precision cannot tell.
 struct Doubtful {
-    RayGroup* group = nullptr;
-    std::uint32_t lane = 0;
     std::uint32_t triangle = no_triangle;
+    std::uint32_t before = no_doubtful; ///< the number of the same ray's one before
 };
 
 /// What a search holds; each thread keeps one.
@@ -50,6 +52,16 @@ struct Workspace {
     std::vector<WaitingGroup> waiting_groups;
     std::vector<Doubtful> doubtful;
 };
+
+/// Notes that the lane's ray may meet the triangle.
+HWY_INLINE void doubt(
+    std::vector<Doubtful>& all, RayGroup& group, std::size_t lane, std::uint32_t triangle) {
+    const GroupMask bit = GroupMask{1} << lane;
+    const std::uint32_t before = (group.in_doubt & bit) != 0 ? group.doubtful[lane] : no_doubtful;
+    group.in_doubt |= bit;
+    group.doubtful[lane] = static_cast<std::uint32_t>(all.size());
+    all.push_back({triangle, before});
+}
 
 struct Search {
     const MeshTree& tree;
@@ -93,14 +105,8 @@ HWY_INLINE void take_meeting(
     const auto may = hn::And(meeting.may, in_search);
     GroupMask doubtful = 0;
     if constexpr (any) {
-        GroupMask met = bits_of(d, sure) << i;
+        const GroupMask met = bits_of(d, sure) << i;
         doubtful = (bits_of(d, may) << i) & ~met;
-        if (HWY_UNLIKELY(doubtful != 0 && group.blur > 0)) {
-            const auto again =
-                meeting_from_start(d, group, i, rows_of(search.tree, leaf), leaf_size(leaf), j);
-            met |= doubtful & (bits_of(d, again.sure) << i);
-            doubtful &= (bits_of(d, again.may) << i) & ~met;
-        }
         group.met |= met;
         hn::BlendedStore(hn::Set(d, -1), in_group(d, met, i), d, group.limit.data() + i);
     } else {
@@ -135,36 +141,25 @@ HWY_INLINE void take_meeting(
                 group.limit[lane] = -1;
             }
         } else {
-            search.space.doubtful.push_back({&group, lane, triangle});
+            doubt(search.space.doubtful, group, lane, triangle);
         }
     }
 }
 
-/// How the lanes' rays of the group meet triangle j of a leaf, which passing(i) tells of those from
-/// number i on.
-template <bool any, typename PassingAt>
+/// Takes how the lanes' rays of the group meet triangle j of a leaf, which meeting(i) tells of those
+/// from number i on.
+template <bool any, typename MeetingAt>
 HWY_INLINE void meet_triangle(
     const Search& search,
     const TreeChild& leaf,
     std::size_t j,
     RayGroup& group,
     GroupMask lanes,
-    const PassingAt& passing) {
+    const MeetingAt& meeting) {
     const Rays d;
     ++search.counts.triangles;
     for (std::size_t i = 0; i < group_size; i += hn::Lanes(d))
-        take_meeting<any>(
-            search,
-            leaf,
-            j,
-            group,
-            lanes,
-            i,
-            meeting_triangle(
-                d,
-                passing(i),
-                hn::Load(d, group.t_min.data() + i),
-                hn::Load(d, group.limit.data() + i)));
+        take_meeting<any>(search, leaf, j, group, lanes, i, meeting(i));
 }
 
 /// What the lanes' rays of a beam do at a leaf.
@@ -174,15 +169,25 @@ visit_leaf(const Search& search, const TreeChild& leaf, GroupMask lanes, BeamWal
     const Rays d;
     const float* const rows = rows_of(search.tree, leaf);
     RayGroup& group = *beam.group;
+    const auto in_range = [&](std::size_t i, const auto& passing) HWY_ATTR {
+        return meeting_triangle(
+            d,
+            passing,
+            hn::Load(d, group.t_min.data() + i),
+            hn::Load(d, group.limit.data() + i));
+    };
     if (beam.one_origin) {
         SeenTriangles seen;
         std::uint32_t may = see_triangles(rows, leaf_size(leaf), beam, seen);
         if (may == 0)
             return;
+        // More is known of what is near from where rays started than from where they end.
+        const bool near_start = group.blur > 0 && leaf.near() > 0.25F * beam.limit;
         for (; may != 0; may &= may - 1) {
             const auto j = static_cast<std::size_t>(std::countr_zero(may));
             meet_triangle<any>(search, leaf, j, group, lanes, [&](std::size_t i) HWY_ATTR {
-                return passing_seen(d, group, i, seen, j);
+                return near_start ? meeting_from_start(d, group, i, rows, leaf_size(leaf), j)
+                                  : in_range(i, passing_seen(d, group, i, seen, j));
             });
         }
     } else {
@@ -190,7 +195,7 @@ visit_leaf(const Search& search, const TreeChild& leaf, GroupMask lanes, BeamWal
         store_triangles(rows, leaf_size(leaf), stored);
         for (std::size_t j = 0; j < leaf_size(leaf); ++j)
             meet_triangle<any>(search, leaf, j, group, lanes, [&](std::size_t i) HWY_ATTR {
-                return passing_stored(d, group, i, stored, j);
+                return in_range(i, passing_stored(d, group, i, stored, j));
             });
     }
     beam.limit = largest_limit(group);
@@ -245,7 +250,7 @@ HWY_INLINE bool visit_leaf(const Search& search, const TreeChild& leaf, RayWalk&
             if (surely_meets(search.tree, *ray.given, triangle))
                 return true;
         } else {
-            search.space.doubtful.push_back({ray.group, ray.lane, triangle});
+            doubt(search.space.doubtful, *ray.group, ray.lane, triangle);
         }
     }
     return false;
@@ -608,20 +613,24 @@ HWY_INLINE void take_sure_hits(const MeshTree& tree, const RayGroup& group, Mesh
             {&hits[lane].t, &hits[lane + 1].t, &hits[lane + 2].t, &hits[lane + 3].t});
 }
 
-/// Decides between what a ray surely meets and what it may meet.
-void decide_doubtful(const Search& search, const RayGroup& group, std::size_t lane, MeshHit& hit) {
-    const PreparedRay prepared = prepared_mesh_ray(group.rays[lane]);
+/// The hit of a ray that may meet more than it surely meets, if it surely meets anything.
+HWY_NOINLINE MeshHit decide_doubtful(
+    const Search& search,
+    const MeshRay& ray,
+    std::uint32_t leaf,
+    std::uint32_t place,
+    std::uint32_t last_doubtful) {
+    const PreparedRay prepared = prepared_mesh_ray(ray);
     NearestCrossing nearest;
     const auto consider = [&](std::uint32_t triangle) {
         if (const auto crossing = crossing_with(search.tree.mesh, prepared, triangle))
             nearest.add(*crossing, triangle);
     };
-    if (group.place[lane] != no_place)
-        consider(triangle_at(search.tree, group.leaf[lane], group.place[lane]));
-    for (const Doubtful& doubtful : search.space.doubtful)
-        if (doubtful.group == &group && doubtful.lane == lane)
-            consider(doubtful.triangle);
-    hit = nearest.hit();
+    if (place != no_place)
+        consider(triangle_at(search.tree, leaf, place));
+    for (std::uint32_t i = last_doubtful; i != no_doubtful; i = search.space.doubtful[i].before)
+        consider(search.space.doubtful[i].triangle);
+    return nearest.hit();
 }
 
 /// The hits of the groups that were searched for.
@@ -631,12 +640,15 @@ HWY_INLINE void take_hits(const Search& search, std::size_t groups, std::span<Me
         const RayGroup& group = space.groups[i];
         MeshHit* const of_group = hits.data() + i * group_size;
         take_sure_hits(search.tree, group, of_group);
-        GroupMask decided = 0;
-        for (const Doubtful& doubtful : space.doubtful)
-            if (doubtful.group == &group && (decided >> doubtful.lane & 1U) == 0) {
-                decided |= GroupMask{1} << doubtful.lane;
-                decide_doubtful(search, group, doubtful.lane, of_group[doubtful.lane]);
-            }
+        for (GroupMask rest = group.in_doubt; rest != 0; rest &= rest - 1) {
+            const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+            of_group[lane] = decide_doubtful(
+                search,
+                group.rays[lane],
+                group.leaf[lane],
+                group.place[lane],
+                group.doubtful[lane]);
+        }
         for (std::size_t lane = 0; lane < group.rays.size(); ++lane)
             if ((group.followed >> lane & 1U) == 0)
                 of_group[lane] = nearest_plainly(search.tree, group.rays[lane]);
@@ -682,19 +694,9 @@ HWY_INLINE bool follow_single(const Search& search, RayWalk& ray) {
 /// The hit of a ray that was followed alone.
 HWY_INLINE MeshHit hit_of_single(const Search& search, const RayWalk& ray, float per_t_scale) {
     const MeshTree& tree = search.tree;
-    if (HWY_UNLIKELY(!search.space.doubtful.empty())) {
-        const PreparedRay prepared = prepared_mesh_ray(*ray.given);
-        NearestCrossing nearest;
-        const auto consider = [&](std::uint32_t triangle) {
-            if (const auto crossing = crossing_with(tree.mesh, prepared, triangle))
-                nearest.add(*crossing, triangle);
-        };
-        if (ray.place != no_place)
-            consider(triangle_at(tree, ray.leaf, ray.place));
-        for (const Doubtful& doubtful : search.space.doubtful)
-            consider(doubtful.triangle);
-        return nearest.hit();
-    }
+    const RayGroup& group = *ray.group;
+    if (HWY_UNLIKELY(group.in_doubt != 0))
+        return decide_doubtful(search, *ray.given, ray.leaf, ray.place, group.doubtful[0]);
     if (ray.place == no_place)
         return {};
     const std::size_t size = ray.place >> 8U;
@@ -737,6 +739,8 @@ void search_nearest_kernel(
         search.space.doubtful.clear();
         RayWalk& ray = search.space.alone.front();
         float per_t_scale = 1;
+        ray.group = &search.space.groups.front();
+        ray.group->in_doubt = 0;
         if (start_single(tree, rays[0], false, stack_of(search, 0), ray, per_t_scale)) {
             follow_single<false>(search, ray);
             hits[0] = hit_of_single(search, ray, per_t_scale);

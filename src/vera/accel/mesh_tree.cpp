@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/accel/mesh_tree.h"
 
+#include "vera/base/large_pages.h"
+
 #include <algorithm>
 #include <atomic>
 #include <bit>
@@ -99,16 +101,18 @@ bool is_exact(const MeshSpans& mesh, int exponent) {
 
 std::vector<BoxReference> references_of(const MeshSpans& mesh, const MeshScale& scale) {
     std::vector<BoxReference> references(mesh.triangles.size());
-    std::atomic<bool> all = true;
+    std::atomic<bool> some_are_empty = false;
     parallel_ranges(references.size(), grain, [&](std::size_t first, std::size_t last) {
+        bool empty = false;
         for (std::size_t i = first; i < last; ++i) {
             const FloatBox box = box_of(mesh, mesh.triangles[i], scale);
             references[i] = {box.lower, static_cast<std::uint32_t>(i), box.upper, 0};
-            if (!(box.lower[0] <= box.upper[0]))
-                all = false;
+            empty = empty || !(box.lower[0] <= box.upper[0]);
         }
+        if (empty)
+            some_are_empty = true;
     });
-    if (!all)
+    if (some_are_empty)
         std::erase_if(references, [](const BoxReference& reference) {
             return !(reference.lower[0] <= reference.upper[0]);
         });
@@ -136,7 +140,7 @@ void fill_leaf(
 
 } // namespace
 
-MeshTree build_mesh_tree(MeshSpans mesh, MeshIndexQuality /*quality*/, const CancelFlag* cancel) {
+MeshTree build_mesh_tree(MeshSpans mesh, MeshIndexQuality quality, const CancelFlag* cancel) {
     if (mesh.triangles.size() >= TreeChild::most)
         throw std::length_error(fmt::format(
             "a mesh of {} triangles is more than one index can number; make several of at most {}",
@@ -157,9 +161,14 @@ MeshTree build_mesh_tree(MeshSpans mesh, MeshIndexQuality /*quality*/, const Can
     tree.exact = is_exact(mesh, tree.exponent);
     std::vector<BoxReference> references = references_of(mesh, scale);
     const std::size_t triangles = references.size();
-    BoxTree boxes = build_box_tree(std::move(references), mesh_leaf_size, cancel);
+    const TreeEffort effort =
+        quality == MeshIndexQuality::high ? TreeEffort::high : TreeEffort::usual;
+    BoxTree boxes = build_box_tree(std::move(references), mesh_leaf_size, cancel, effort);
     // Whole registers are loaded of the last rows.
-    tree.leaves.resize(mesh_leaf_rows * boxes.references.size() + 2 * mesh_leaf_size);
+    const std::size_t numbers = mesh_leaf_rows * boxes.references.size() + 2 * mesh_leaf_size;
+    tree.leaves.reserve(numbers);
+    prefer_large_pages(tree.leaves.data(), numbers * sizeof(float));
+    tree.leaves.resize(numbers);
     parallel_ranges(boxes.nodes.size(), 256, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i)
             for (const TreeChild& child : boxes.nodes[i].children)
@@ -167,6 +176,7 @@ MeshTree build_mesh_tree(MeshSpans mesh, MeshIndexQuality /*quality*/, const Can
                     fill_leaf(mesh, scale, boxes.references, child, tree.leaves);
     });
     tree.nodes = std::move(boxes.nodes);
+    prefer_large_pages(tree.nodes.data(), tree.nodes.size() * sizeof(WideNode));
     tree.statistics = {
         triangles,
         mesh.triangles.size() - triangles,

@@ -2,6 +2,7 @@
 #include "vera/accel/tree_build.h"
 
 #include "vera/accel/box_tree.h"
+#include "vera/accel/box_tree_nodes.h"
 
 #include <algorithm>
 #include <bit>
@@ -156,13 +157,15 @@ private:
 } // namespace
 
 std::size_t forecast_tree_bytes(const Geometry& geometry) {
-    // Blocks are about 0.7 full, nodes have about 5 children, which are held twice while the parts
-    // are joined.
-    constexpr double rows_of_element = 12.0 * sizeof(float) / 0.7;
-    constexpr double nodes_of_element = sizeof(WideNode) / (5 * 0.7 * block_width);
+    // The references; of each block two binary nodes, the node that it is a child of, twice while
+    // the parts are joined, and its rows: what was given back may still be the process's. Blocks
+    // are about 0.7 full, nodes have about 5 children.
+    constexpr double blocks_of_element = 1 / (0.7 * block_width);
+    constexpr double bytes_of_block =
+        2 * sizeof(BinaryNode) + 2 * sizeof(WideNode) / 5.0 + 12 * sizeof(BlockRow);
     return static_cast<std::size_t>(
         static_cast<double>(geometry.element_count)
-            * (sizeof(BoxReference) + 2 * (rows_of_element + nodes_of_element))
+            * (sizeof(BoxReference) + blocks_of_element * bytes_of_block)
         + static_cast<double>(most_memory_of_outline_table(geometry) + sizeof(GeometryTree)));
 }
 

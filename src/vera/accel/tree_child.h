@@ -76,6 +76,11 @@ struct TreeChild {
         const std::uint64_t upper = std::uint64_t{std::bit_cast<std::uint32_t>(near)} << 32U;
         return {(child.bits & lower_part) | (upper & ~lower_part)};
     }
+
+    /// Where a waiting child is entered.
+    float near() const {
+        return std::bit_cast<float>(static_cast<std::uint32_t>((bits & ~lower_part) >> 32U));
+    }
 };
 
 } // namespace vera::detail

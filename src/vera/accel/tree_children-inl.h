@@ -152,7 +152,7 @@ fetch(const WideNode* nodes, const void* blocks, std::size_t unit, const TreeChi
         base
         + static_cast<std::ptrdiff_t>(
             first * unit + (if_node & (to_nodes + first * (sizeof(WideNode) - unit))));
-    for (std::size_t line = 0; line < sizeof(WideNode); line += 64)
+    for (std::size_t line = 0; line < sizeof(WideNode); line += 128)
         hwy::Prefetch(place + line);
 }
 
