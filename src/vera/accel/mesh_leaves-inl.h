@@ -9,6 +9,7 @@
 #define VERA_ACCEL_MESH_LEAVES_INL_H
 #endif
 
+#include "vera/accel/mesh_beams-inl.h"
 #include "vera/accel/mesh_rays-inl.h"
 #include "vera/accel/mesh_tree.h"
 
@@ -297,8 +298,8 @@ see_triangles(const float* rows, std::size_t size, const BeamWalk& beam, SeenTri
             hn::Sub(hn::Abs(depth), t_error),
             hn::Mul(hn::Set(d, beam.limit), hn::Add(speed_size, speed_half)));
         // What is seen edge-on is met where its plane need not be: see mesh_crossing().
-        const auto edge_on = hn::Le(
-            hn::Sub(speed_size, speed_half), hn::Mul(hn::Set(d, well_known), n_error));
+        const auto edge_on =
+            hn::Le(hn::Sub(speed_size, speed_half), hn::Mul(hn::Set(d, well_known), n_error));
         const auto in_range = hn::Or(before, edge_on);
         may |= bits_of(d, hn::And(hn::Or(front, back), in_range)) << i;
     }

@@ -17,8 +17,8 @@ public:
     PlainRay(const MeshTree& tree, const Ray& ray)
         : ray_(ray)
         , per_scale_(std::ldexp(1.0, -tree.exponent)) {
-        // Far more than by how much crossings are off that mesh_crossing() calls well known, which is
-        // 2^20 roundings.
+        // Far more than by how much crossings are off that mesh_crossing() calls well known, which
+        // is 2^20 roundings.
         margin_ = 0x1p-24 * (per_scale_ + max_component(abs(ray.origin)));
     }
 

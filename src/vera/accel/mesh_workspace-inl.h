@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a search of the tree of a mesh holds: see mesh_search.cpp. Compiled once for each
+// instruction set.
+
+#if defined(VERA_ACCEL_MESH_WORKSPACE_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef VERA_ACCEL_MESH_WORKSPACE_INL_H
+#undef VERA_ACCEL_MESH_WORKSPACE_INL_H
+#else
+#define VERA_ACCEL_MESH_WORKSPACE_INL_H
+#endif
+
+#include "vera/accel/mesh_beams-inl.h"
+#include "vera/accel/mesh_crossing.h"
+#include "vera/accel/mesh_rays-inl.h"
+#include "vera/accel/mesh_singles-inl.h"
+#include "vera/accel/mesh_tree.h"
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+
+namespace vera::detail::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Groups that are searched for together, so that they can take steps in turn.
+constexpr std::size_t groups_at_once = 2;
+constexpr std::size_t rays_at_once = groups_at_once * group_size;
+
+/// No number of a Doubtful.
+constexpr std::uint32_t no_doubtful = ~std::uint32_t{0};
+
+/// A triangle that a ray may meet, of which single precision cannot tell.
+struct Doubtful {
+    std::uint32_t triangle = no_triangle;
+    std::uint32_t before = no_doubtful; ///< the number of the same ray's one before
+};
+
+/// What a search holds; each thread keeps one.
+struct Workspace {
+    std::array<RayGroup, groups_at_once> groups;
+    std::array<BeamWalk, groups_at_once> beams;
+    std::array<RayWalk, rays_at_once> alone;
+    std::size_t depth = 0;          ///< of a stack
+    std::vector<TreeChild> waiting; ///< a stack for each ray, then for each group
+    std::vector<WaitingGroup> waiting_groups;
+    std::vector<Doubtful> doubtful;
+};
+
+/// Notes that the lane's ray may meet the triangle.
+HWY_INLINE void
+doubt(std::vector<Doubtful>& all, RayGroup& group, std::size_t lane, std::uint32_t triangle) {
+    const GroupMask bit = GroupMask{1} << lane;
+    const std::uint32_t before = (group.in_doubt & bit) != 0 ? group.doubtful[lane] : no_doubtful;
+    group.in_doubt |= bit;
+    group.doubtful[lane] = static_cast<std::uint32_t>(all.size());
+    all.push_back({triangle, before});
+}
+
+struct Search {
+    const MeshTree& tree;
+    Workspace& space;
+    MeshQueryCounts& counts;
+};
+
+HWY_INLINE TreeChild* stack_of(const Search& search, std::size_t number) {
+    return search.space.waiting.data() + number * search.space.depth;
+}
+
+HWY_INLINE const float* rows_of(const MeshTree& tree, const TreeChild& leaf) {
+    return tree.leaves.data() + mesh_leaf_rows * leaf.first();
+}
+
+HWY_INLINE std::uint32_t
+triangle_at(const MeshTree& tree, std::uint32_t leaf, std::uint32_t place) {
+    const std::size_t size = place >> 8U;
+    return std::bit_cast<std::uint32_t>(
+        tree.leaves[mesh_leaf_rows * leaf + mesh_number_row * size + (place & 0xffU)]);
+}
+
+HWY_NOINLINE bool surely_meets(const MeshTree& tree, const MeshRay& ray, std::uint32_t triangle) {
+    return crossing_with(tree.mesh, prepared_mesh_ray(ray), triangle).has_value();
+}
+
+} // namespace vera::detail::HWY_NAMESPACE
+
+HWY_AFTER_NAMESPACE();
+
+#endif
