@@ -31,10 +31,10 @@ HWY_INLINE Four each(const Operation& operation, const Operands&... operands) {
     return result;
 }
 
-HWY_INLINE Four load(const std::array<float, 4>& numbers) {
+HWY_INLINE Four load(const float* numbers) {
     Four result;
     for (std::size_t i = 0; i < 4 / lanes; ++i)
-        result.parts[i] = hn::Load(Lanes(), numbers.data() + i * lanes);
+        result.parts[i] = hn::Load(Lanes(), numbers + i * lanes);
     return result;
 }
 
@@ -47,94 +47,117 @@ HWY_INLINE Four min(const Four& a, const Four& b) {
     return each([](V x, V y) HWY_ATTR { return hn::Min(x, y); }, a, b);
 }
 
-HWY_INLINE Four max(const Four& a, const Four& b) {
-    return each([](V x, V y) HWY_ATTR { return hn::Max(x, y); }, a, b);
+/// Twice the middle of the reference's box; no number along an axis where it has no ends.
+HWY_INLINE Four middle_of(const BoxReference& reference) {
+    return each(
+        [](V lower, V upper) HWY_ATTR { return hn::Add(lower, upper); },
+        load(reference.lower.data()),
+        load(reference.upper.data()));
 }
 
-/// A box in registers.
+/// 0 in place of what is no number.
+HWY_INLINE Four known(const Four& middle) {
+    return each([](V x) HWY_ATTR { return hn::IfThenElseZero(hn::Eq(x, x), x); }, middle);
+}
+
+HWY_INLINE Four negated(const Four& numbers) {
+    return each([](V x) HWY_ATTR { return hn::Neg(x); }, numbers);
+}
+
+/// What holds points, as a RegisterBox does.
 struct Bounds {
     Four lower;
-    Four upper;
+    Four negated_upper;
 };
 
-HWY_INLINE Bounds load(const RegisterBox& box) {
-    return {load(box.lower), load(box.upper)};
+HWY_INLINE Bounds no_bounds() {
+    return {load(empty_box.numbers.data()), load(empty_box.numbers.data())};
 }
 
-/// With what stands behind the corners fourth.
-HWY_INLINE Bounds load(const BoxReference& reference) {
-    Bounds result;
-    for (std::size_t i = 0; i < 4 / lanes; ++i) {
-        result.lower.parts[i] = hn::Load(Lanes(), reference.lower.data() + i * lanes);
-        result.upper.parts[i] = hn::Load(Lanes(), reference.upper.data() + i * lanes);
-    }
-    return result;
+HWY_INLINE Bounds grown(const Bounds& bounds, const Four& point) {
+    return {min(bounds.lower, point), min(bounds.negated_upper, negated(point))};
 }
 
 HWY_INLINE void store(const Bounds& bounds, RegisterBox& box) {
-    store(bounds.lower, box.lower.data());
-    store(bounds.upper, box.upper.data());
+    store(bounds.lower, box.numbers.data());
+    store(bounds.negated_upper, box.numbers.data() + 4);
 }
 
-HWY_INLINE Bounds together(const Bounds& a, const Bounds& b) {
-    return {min(a.lower, b.lower), max(a.upper, b.upper)};
+/// The eight numbers of a box, in registers as wide as there are.
+using BoxLanes = hn::CappedTag<float, 8>;
+constexpr std::size_t box_lanes = hn::MaxLanes(BoxLanes());
+
+struct Box {
+    hn::Vec<BoxLanes> parts[8 / box_lanes];
+};
+
+HWY_INLINE Box load(const RegisterBox& box) {
+    Box result;
+    for (std::size_t i = 0; i < 8 / box_lanes; ++i)
+        result.parts[i] = hn::Load(BoxLanes(), box.numbers.data() + i * box_lanes);
+    return result;
 }
 
-/// From corner to corner.
-HWY_INLINE Four extent(const Bounds& box) {
-    return each(
-        [](V upper, V lower) HWY_ATTR { return hn::Sub(upper, lower); }, box.upper, box.lower);
+HWY_INLINE void store(const Box& box, RegisterBox& to) {
+    for (std::size_t i = 0; i < 8 / box_lanes; ++i)
+        hn::Store(box.parts[i], BoxLanes(), to.numbers.data() + i * box_lanes);
 }
 
-/// Twice the middle of a box; 0 along an axis where it has no ends.
-HWY_INLINE Four middle_of(const Bounds& box) {
-    return each(
-        [](V lower, V upper) HWY_ATTR {
-            const V middle = hn::Add(lower, upper);
-            return hn::IfThenElseZero(hn::Eq(middle, middle), middle);
-        },
-        box.lower,
-        box.upper);
+/// With what stands behind the corners.
+HWY_INLINE Box box_of(const BoxReference& reference) {
+    constexpr RegisterBox signs = {{0.0F, 0.0F, 0.0F, 0.0F, -0.0F, -0.0F, -0.0F, -0.0F}};
+    const auto* const numbers = reinterpret_cast<const float*>(&reference);
+    Box result = load(signs);
+    for (std::size_t i = 0; i < 8 / box_lanes; ++i)
+        result.parts[i] = hn::Xor(result.parts[i], hn::LoadU(BoxLanes(), numbers + i * box_lanes));
+    return result;
+}
+
+HWY_INLINE Box together(const Box& a, const Box& b) {
+    Box result;
+    for (std::size_t i = 0; i < 8 / box_lanes; ++i)
+        result.parts[i] = hn::Min(a.parts[i], b.parts[i]);
+    return result;
 }
 
 void include_kernel(
     std::span<const BoxReference> references, RegisterBox& whole_box, RegisterBox& whole_middles) {
-    Bounds box = load(whole_box);
-    Bounds middles = load(whole_middles);
+    Box box = load(whole_box);
+    Bounds middles = no_bounds();
     for (const BoxReference& reference : references) {
-        const Bounds own = load(reference);
-        const Four middle = middle_of(own);
-        box = together(box, own);
-        middles = together(middles, {middle, middle});
+        box = together(box, box_of(reference));
+        middles = grown(middles, known(middle_of(reference)));
     }
     store(box, whole_box);
-    store(middles, whole_middles);
+    RegisterBox own_middles;
+    store(middles, own_middles);
+    include(whole_middles, own_middles);
 }
 
 void fill_bins_kernel(
     std::span<const BoxReference> references, const Binning& binning, Bins& bins) {
-    const Four start = load(binning.start);
-    const Four bins_per_unit = load(binning.bins_per_unit);
+    const Four start = load(binning.start.data());
+    const Four bins_per_unit = load(binning.bins_per_unit.data());
     const V last = hn::Set(Lanes(), static_cast<float>(binning.count - 1));
-    const Bounds empty = load(empty_box);
+    const Box empty = load(empty_box);
     for (std::size_t i = 0; i < binning.count; ++i) {
         for (RegisterBox& box : bins.boxes[i])
             store(empty, box);
         bins.counts[i] = {};
     }
     for (const BoxReference& reference : references) {
-        const Bounds own = load(reference);
-        const Four middle = middle_of(own);
+        const Four middle = middle_of(reference);
         alignas(16) std::int32_t numbers[4];
         for (std::size_t i = 0; i < 4 / lanes; ++i) {
             const V place =
                 hn::Mul(hn::Sub(middle.parts[i], start.parts[i]), bins_per_unit.parts[i]);
-            // A tiny length makes the factor infinite, and 0 times that no number: counts as 0.
+            // No number counts as 0: a tiny length makes the factor infinite.
             const V in_bins =
                 hn::IfThenElseZero(hn::Gt(place, hn::Zero(Lanes())), hn::Min(place, last));
             const hn::RebindToSigned<Lanes> integers;
             hn::Store(hn::ConvertTo(integers, in_bins), integers, numbers + i * lanes);
         }
+        const Box own = box_of(reference);
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const auto number = static_cast<std::uint32_t>(numbers[axis]);
             RegisterBox& box = bins.boxes[number][axis];
@@ -145,10 +168,17 @@ void fill_bins_kernel(
 }
 
 /// Along each axis, half the surface of a box.
-HWY_INLINE Four surfaces(const Bounds (&boxes)[3]) {
+HWY_INLINE Four surfaces(const Box (&boxes)[3]) {
     alignas(16) float extents[16] = {};
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        store(extent(boxes[axis]), extents + 4 * axis);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        RegisterBox box;
+        store(boxes[axis], box);
+        const auto between = [](V lower, V negated_upper)
+                                 HWY_ATTR { return hn::Neg(hn::Add(lower, negated_upper)); };
+        store(
+            each(between, load(box.numbers.data()), load(box.numbers.data() + 4)),
+            extents + 4 * axis);
+    }
     Four result;
     for (std::size_t i = 0; i < 4 / lanes; ++i) {
         V x;
@@ -163,12 +193,12 @@ HWY_INLINE Four surfaces(const Bounds (&boxes)[3]) {
 
 /// What is on a side of a cut, along each axis.
 struct Side {
-    Bounds boxes[3];
+    Box boxes[3];
     std::array<std::int32_t, 4> counts;
 };
 
 HWY_INLINE Side empty_side() {
-    const Bounds empty = load(empty_box);
+    const Box empty = load(empty_box);
     return {{empty, empty, empty}, {}};
 }
 
@@ -197,7 +227,7 @@ Cut best_cut_kernel(const Bins& bins, const Binning& binning) {
         add_bin(bins, i - 1, left);
         left_costs[i] = cost_of(left);
     }
-    Four least = load(empty_box.lower);
+    Four least = load(empty_box.numbers.data());
     Four least_bin = least;
     Side right = empty_side();
     for (std::size_t i = binning.count; i-- > 1;) {
@@ -225,8 +255,8 @@ Cut best_cut_kernel(const Bins& bins, const Binning& binning) {
         }
     if (best.axis == 3)
         return best;
-    Bounds left_box = load(empty_box);
-    Bounds right_box = left_box;
+    Box left_box = load(empty_box);
+    Box right_box = left_box;
     for (std::size_t i = 0; i < best.bin; ++i)
         left_box = together(left_box, load(bins.boxes[i][best.axis]));
     for (std::size_t i = best.bin; i < binning.count; ++i)
@@ -236,13 +266,14 @@ Cut best_cut_kernel(const Bins& bins, const Binning& binning) {
     return best;
 }
 
-/// The box grown by the point where the mask says so.
+/// The bounds grown by the point where the mask says so.
 template <typename Mask>
-HWY_INLINE Bounds grown_where(Mask mask, const Bounds& box, const Four& point) {
+HWY_INLINE Bounds grown_where(Mask mask, const Bounds& bounds, const Four& point) {
     const auto chosen = [&](V yes, V no) HWY_ATTR { return hn::IfThenElse(mask, yes, no); };
+    const Bounds with = grown(bounds, point);
     return {
-        each(chosen, min(box.lower, point), box.lower),
-        each(chosen, max(box.upper, point), box.upper)};
+        each(chosen, with.lower, bounds.lower),
+        each(chosen, with.negated_upper, bounds.negated_upper)};
 }
 
 Sides take_sides_kernel(
@@ -252,17 +283,16 @@ Sides take_sides_kernel(
     const float start = binning.start[axis];
     const float bins_per_unit = binning.bins_per_unit[axis];
     const auto bin = static_cast<float>(cut.bin);
-    Bounds left = load(empty_box);
-    Bounds right = load(empty_box);
+    Bounds left = no_bounds();
+    Bounds right = no_bounds();
     std::size_t left_count = 0;
     for (BoxReference& reference : references) {
-        const Four middle = middle_of(load(reference));
-        alignas(16) float coordinates[4];
-        store(middle, coordinates);
         // As in fill_bins_kernel. No branches, which would be guessed wrongly again and again.
-        const bool is_left = !((coordinates[axis] - start) * bins_per_unit >= bin);
+        const float place = (reference.lower[axis] + reference.upper[axis] - start) * bins_per_unit;
+        const bool is_left = !(place >= bin);
         const auto all_if_left = hn::Set(integers, -static_cast<std::int32_t>(is_left));
         const auto on_left = hn::MaskFromVec(hn::BitCast(Lanes(), all_if_left));
+        const Four middle = known(middle_of(reference));
         left = grown_where(on_left, left, middle);
         right = grown_where(hn::Not(on_left), right, middle);
         const BoxReference other = references[left_count];

@@ -12,23 +12,31 @@
 
 namespace vera::detail {
 
-/// A box as it is loaded into registers of four numbers; the fourth ones mean nothing.
-struct alignas(16) RegisterBox {
-    std::array<float, 4> lower;
-    std::array<float, 4> upper;
+/// A box for registers: the lower corner, and then the upper one negated, so that a minimum of all
+/// eight numbers makes a box that holds two. The fourth and the last mean nothing.
+struct alignas(32) RegisterBox {
+    std::array<float, 8> numbers;
+
+    float lower(std::size_t axis) const { return numbers[axis]; }
+
+    float upper(std::size_t axis) const { return -numbers[4 + axis]; }
 
     FloatBox box() const {
-        return {{lower[0], lower[1], lower[2]}, {upper[0], upper[1], upper[2]}};
+        return {{lower(0), lower(1), lower(2)}, {upper(0), upper(1), upper(2)}};
     }
 };
 
 constexpr RegisterBox empty_box = [] {
-    constexpr float infinite = std::numeric_limits<float>::infinity();
     RegisterBox box = {};
-    box.lower.fill(infinite);
-    box.upper.fill(-infinite);
+    box.numbers.fill(std::numeric_limits<float>::infinity());
     return box;
 }();
+
+/// Grows the box by another.
+inline void include(RegisterBox& box, const RegisterBox& more) {
+    for (std::size_t i = 0; i < 8; ++i)
+        box.numbers[i] = std::min(box.numbers[i], more.numbers[i]);
+}
 
 constexpr std::size_t most_bins = 16;
 
@@ -43,8 +51,8 @@ struct alignas(16) Binning {
         // Few are told apart by fewer bins nearly as well.
         : count(std::min(most_bins, 4 + references / 16)) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            start[axis] = middles.lower[axis];
-            const float length = middles.upper[axis] - start[axis];
+            start[axis] = middles.lower(axis);
+            const float length = middles.upper(axis) - start[axis];
             bins_per_unit[axis] = length > 0 ? static_cast<float>(count) / length : 0;
         }
         // Fourth are the numbers of elements, as floats so small that some processors are slow at

@@ -27,13 +27,6 @@ void for_parts(std::size_t first, std::size_t last, const Turn& turn) {
     });
 }
 
-void include(RegisterBox& box, const RegisterBox& more) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        box.lower[axis] = std::min(box.lower[axis], more.lower[axis]);
-        box.upper[axis] = std::max(box.upper[axis], more.upper[axis]);
-    }
-}
-
 void add(Bins& bins, const Bins& more, std::size_t count) {
     for (std::size_t axis = 0; axis < 3; ++axis)
         for (std::size_t i = 0; i < count; ++i) {
