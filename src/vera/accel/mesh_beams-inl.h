@@ -184,6 +184,7 @@ set_lines(BeamWalk& beam, std::size_t axis, bool backward, Extent origin, Extent
 /// several octants.
 HWY_INLINE bool start_beam(RayGroup& group, bool any, TreeChild* stack, BeamWalk& beam) {
     constexpr float widest = 0.02F;
+    constexpr float widest_any = 0.008F;
     const Rays d;
     const GroupMask lanes = group.followed;
     beam.group = &group;
@@ -211,7 +212,7 @@ HWY_INLINE bool start_beam(RayGroup& group, bool any, TreeChild* stack, BeamWalk
             return false;
         octant |= std::size_t{backward} << axis;
         const float half = 0.5F * (direction.most - direction.least);
-        beam.narrow = beam.narrow && half < widest;
+        beam.narrow = beam.narrow && half < (any ? widest_any : widest);
         beam.direction_middle[axis] = 0.5F * (direction.most + direction.least);
         beam.direction_half[axis] = half + 0x1p-22F;
         inverse[axis] = {

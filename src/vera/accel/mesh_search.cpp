@@ -113,7 +113,7 @@ HWY_INLINE MeshHit hit_of_single(const Search& search, const RayWalk& ray, float
 
 Workspace& workspace_of_this_thread(const MeshTree& tree) {
     thread_local Workspace space;
-    const std::size_t depth = waiting_depth(tree.statistics.levels);
+    const std::size_t depth = waiting_depth(tree.statistics.levels) + most_left;
     if (space.depth < depth) {
         space.waiting.resize((rays_at_once + groups_at_once) * depth);
         space.waiting_groups.resize(depth);

@@ -230,7 +230,10 @@ HWY_NOINLINE void follow_beams(const Search& search, std::size_t count) {
 }
 
 /// So few rays go on alone.
-constexpr int few_rays = 3;
+constexpr int few_rays = 6;
+
+/// So much may be left for each of them.
+constexpr std::uint32_t most_left = 4 * tree_width;
 
 /// Which of a group's rays go alone already, and as which number.
 struct AloneNumbers {
@@ -249,7 +252,7 @@ HWY_INLINE bool leave_for_later(
     std::size_t& alone) {
     for (GroupMask rest = left.lanes & numbers.lanes; rest != 0; rest &= rest - 1) {
         const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-        if (search.space.alone[numbers.number[lane]].walk.size == tree_width)
+        if (search.space.alone[numbers.number[lane]].walk.size == most_left)
             return false;
     }
     for (GroupMask rest = left.lanes; rest != 0; rest &= rest - 1) {
