@@ -36,7 +36,7 @@ NAMES_THAT_SAY_NOTHING = {"core", "common", "util", "utils", "misc", "helper", "
 LICENCE = "SPDX-License-Identifier: Apache-2.0"
 LICENSED = {".h", ".cpp", ".py", ".cmake", ".sh", ".js", ".ts", ".css"}
 LICENSED_NAMES = {"CMakeLists.txt", "dev", "run"}
-SEARCHED = ["src", "apps", "tests", "bench", "tools", "cmake", "python", ".ci"]
+SEARCHED = ["src", "apps", "tests", "bench", "examples", "tools", "cmake", "python", ".ci"]
 ROOT_FILES = ["CMakeLists.txt", "dev"]
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
@@ -71,7 +71,8 @@ def include_problems(path, folder, lines):
             if folder and bracket == '"' and parts[0] != "hwy":
                 yield path, number, f'includes "{name}": write the path from src on, as "vera/FOLDER/NAME.h"'
             continue
-        if bracket == "<" and "consumer" not in path.parts:
+        of_a_user = "consumer" in path.parts or "examples" in path.parts
+        if bracket == "<" and not of_a_user:
             yield path, number, f'includes <{name}>: files of our own stand in quotes'
         used = parts[1]
         if used not in FLOOR_OF:

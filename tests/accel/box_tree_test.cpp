@@ -61,9 +61,9 @@ float place(const WideNode& node, std::size_t child, std::size_t octant) {
     return std::isnan(sum) ? 0 : std::clamp(sum, -most, most);
 }
 
-/// The last three digits do not count.
+/// The last three digits do not count, nor what is as good as 0.
 bool is_not_before(float a, float b) {
-    return a >= b - 0x1p-20F * std::max(std::abs(a), std::abs(b)) - 0x1p-140F;
+    return a >= b - 0x1p-20F * std::max(std::abs(a), std::abs(b)) - 0x1p-98F;
 }
 
 /// Goes through a tree from the root and complains of whatever is not as box_tree.h says.

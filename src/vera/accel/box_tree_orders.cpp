@@ -50,6 +50,9 @@ HWY_INLINE hn::Vec<Octants> key_of(hn::Vec<Octants> place, std::size_t child, st
     // No number becomes 0, and those that are absent come last.
     auto key = hn::IfThenElseZero(hn::Eq(place, place), place);
     key = hn::Min(hn::Max(key, hn::Set(d, -most)), hn::Set(d, most));
+    // Not 0: where tiny numbers count as 0, keys would not differ.
+    const auto least = hn::Set(d, 0x1p-100F);
+    key = hn::IfThenElse(hn::Lt(hn::Abs(key), least), least, key);
     if (child >= count)
         key = hn::Set(d, -2 * most);
     return hn::BitCast(

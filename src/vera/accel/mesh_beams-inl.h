@@ -75,8 +75,9 @@ struct alignas(64) BeamWalk {
     float far_offset[3][2];
     float origin[3]; ///< where there is one
     float direction_middle[3];
-    float direction_half[3]; ///< what the directions differ from the middle
-    float limit = 0;         ///< the largest of the rays
+    float direction_half[3];  ///< what the directions differ from the middle
+    float direction_size = 0; ///< at least the rays' and the sum of middle and half: see RayGroup
+    float limit = 0;          ///< the largest of the rays
     bool one_origin = false;
     bool narrow = false;                ///< so that boxes that the beam meets are met by rays
     std::array<std::uint8_t, 6> places; ///< see plane_places
@@ -190,6 +191,7 @@ HWY_INLINE bool start_beam(RayGroup& group, bool any, TreeChild* stack, BeamWalk
     beam.group = &group;
     std::size_t octant = 0;
     beam.narrow = true;
+    float size = 0;
     Extent inverse[3];
     GroupRow<float> per_largest;
     for (std::size_t i = 0; i < group_size; i += hn::Lanes(d))
@@ -215,9 +217,11 @@ HWY_INLINE bool start_beam(RayGroup& group, bool any, TreeChild* stack, BeamWalk
         beam.narrow = beam.narrow && half < (any ? widest_any : widest);
         beam.direction_middle[axis] = 0.5F * (direction.most + direction.least);
         beam.direction_half[axis] = half + 0x1p-22F;
+        size += std::abs(beam.direction_middle[axis]) + beam.direction_half[axis];
         inverse[axis] = {
             inverse_of(direction.most, backward), inverse_of(direction.least, backward)};
     }
+    beam.direction_size = std::max(group.direction_size, size * (1 + 0x1p-20F));
     beam.one_origin = from_one_origin(group, lanes);
     if (!beam.one_origin && any && turn_round(group)) {
         beam.one_origin = true;

@@ -28,7 +28,8 @@ namespace vera::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Doubles = hn::CappedTag<double, group_size>;
+/// As many as one byte has mask bits.
+using Doubles = hn::CappedTag<double, 8>;
 
 template <typename D>
 HWY_INLINE hn::Vec<D> dot_in_order(const Vector<hn::Vec<D>>& a, const Vector<hn::Vec<D>>& b, D) {

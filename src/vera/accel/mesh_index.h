@@ -49,7 +49,7 @@ struct MeshSpans {
 /// How much work is put into an index.
 enum class MeshIndexQuality : std::uint8_t {
     usual,
-    high ///< large triangles are cut up: slower to build, faster to ask
+    high ///< parts are moved to where they cost rays the least: slower to build, faster to ask
 };
 
 struct MeshIndexStatistics {
@@ -58,8 +58,7 @@ struct MeshIndexStatistics {
     std::size_t levels = 0;   ///< of nodes
     std::size_t nodes = 0;
     std::size_t leaves = 0;
-    std::size_t references = 0; ///< triangles in leaves: more than triangles where some are cut up
-    std::size_t bytes = 0;      ///< of the index, without the mesh
+    std::size_t bytes = 0; ///< of the index, without the mesh
 
     friend bool operator==(const MeshIndexStatistics&, const MeshIndexStatistics&) = default;
 };

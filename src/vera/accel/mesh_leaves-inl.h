@@ -32,19 +32,21 @@ using Triangles = hn::CappedTag<float, mesh_leaf_size>;
 // by u = 2^-24 of itself, and each further operation by as much. With e and f the sides from corner
 // a, q the way from the origin to a, and d the direction, of which |x| is the sum of the
 // coordinates without their signs and [q] the largest one: each of the six products that a volume
-// adds up is rounded seven times, so that volumes are off by at most
+// adds up is rounded seven times, or eight where all three are differences, so that volumes are off
+// by at most
 //   7 u [q] |d| |side|     of q, a side and the direction,
 //   7 u |d| |e| |f|        of e, f and the direction,
-//   7 u [q] |e| |f|        of e, f and q.
+//   8 u [q] |e| |f|        of e, f and q.
+// The quotient t of the last two is rounded three times more, which counts as the speed's.
 // That of the third side is the second less two of the first: it is off by
 //   9 u |d| (|e| + |f|) ([q] + (|e| + |f|) / 4).
-constexpr float side_rounding = 9.5F * 0x1p-24F;
-constexpr float speed_rounding = 7.5F * 0x1p-24F;
-constexpr float depth_rounding = 7.5F * 0x1p-24F;
+constexpr float side_rounding = 10 * 0x1p-24F;
+constexpr float speed_rounding = 10.5F * 0x1p-24F;
+constexpr float depth_rounding = 8.5F * 0x1p-24F;
 
 // What is too small for a usual number loses digits, or all: volumes may be off by this as well. Of
 // a speed, so much that its inverse is finite.
-constexpr float volume_underflow = 0x1p-140F;
+constexpr float volume_underflow = 0x1p-110F;
 constexpr float speed_underflow = 0x1p-120F;
 
 template <typename V>
@@ -257,7 +259,7 @@ see_triangles(const float* rows, std::size_t size, const BeamWalk& beam, SeenTri
         const Vector<V>& normal = sides.normal;
         const V depth = product(normal, way);
         const V q = hn::Add(largest(way), hn::Set(d, blurred_way(group.blur)));
-        const V u_v_error = side_error(d, sides, group.direction_size, q);
+        const V u_v_error = side_error(d, sides, beam.direction_size, q);
         const V n_error = speed_error(d, sides, group.direction_size);
         const V t_error = depth_error(d, sides, q);
         const V values[SeenTriangles::count] = {

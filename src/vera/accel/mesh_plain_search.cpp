@@ -136,14 +136,10 @@ std::vector<MeshHit> all_hits_of(const MeshTree& tree, const MeshRay& ray) {
         return a.crossing.t < b.crossing.t
             || (a.crossing.t == b.crossing.t && a.triangle < b.triangle);
     });
-    // A triangle that was cut up stands in several leaves.
-    const auto last = std::unique(all.begin(), all.end(), [](const Found& a, const Found& b) {
-        return a.triangle == b.triangle;
-    });
     std::vector<MeshHit> hits;
-    hits.reserve(static_cast<std::size_t>(last - all.begin()));
-    for (auto found = all.begin(); found != last; ++found)
-        hits.push_back(mesh_hit(found->crossing, found->triangle));
+    hits.reserve(all.size());
+    for (const Found& found : all)
+        hits.push_back(mesh_hit(found.crossing, found.triangle));
     return hits;
 }
 

@@ -87,6 +87,10 @@ HWY_INLINE hn::Mask<Rays> in_group(Rays d, GroupMask set, std::size_t first) {
 /// precision: single precision does not tell much of them.
 constexpr float farthest_origin = 0x1p10F;
 
+/// Of t_scale, as it stands in a float. Where what is farthest away is met, t is below 2^121 then:
+/// not more than floats can hold.
+constexpr int least_t_exponent = 17;
+
 /// 2^(exponents - 127), for exponents as they stand in a float: from 1 to 254.
 HWY_INLINE hn::Vec<Rays> power_of_two(hn::Vec<RayInts> exponents) {
     return hn::BitCast(Rays(), hn::ShiftLeft<23>(exponents));
@@ -116,7 +120,9 @@ HWY_INLINE void place_group(const MeshTree& tree, GroupMask lanes, RayGroup& gro
         const auto t_exponent = hn::Add(size_exponent, exponent);
         const auto usual = hn::And(
             hn::And(hn::Gt(size_exponent, hn::Zero(di)), hn::Lt(size_exponent, hn::Set(di, 254))),
-            hn::And(hn::Gt(t_exponent, hn::Zero(di)), hn::Lt(t_exponent, hn::Set(di, 254))));
+            hn::And(
+                hn::Gt(t_exponent, hn::Set(di, least_t_exponent - 1)),
+                hn::Lt(t_exponent, hn::Set(di, 254))));
         followed = hn::And(followed, hn::RebindMask(d, usual));
 
         const auto to_unit = power_of_two(hn::Sub(hn::Set(di, 254), size_exponent));

@@ -99,7 +99,7 @@ HWY_INLINE bool start_single(
         std::max(std::abs(given.direction[1]), std::abs(given.direction[2])));
     const int size_exponent = static_cast<int>(std::bit_cast<std::uint32_t>(size) >> 23U);
     const int t_exponent = size_exponent + tree.exponent;
-    if (!tree.exact || size_exponent < 1 || size_exponent > 253 || t_exponent < 1
+    if (!tree.exact || size_exponent < 1 || size_exponent > 253 || t_exponent < least_t_exponent
         || t_exponent > 253)
         return false;
     const float to_unit = power_of_two(254 - size_exponent);

@@ -183,7 +183,6 @@ MeshTree build_mesh_tree(MeshSpans mesh, MeshIndexQuality quality, const CancelF
         boxes.levels,
         tree.nodes.size(),
         boxes.leaves,
-        boxes.references.size(),
         sizeof(MeshTree) + tree.nodes.capacity() * sizeof(WideNode)
             + tree.leaves.capacity() * sizeof(float)};
     return tree;

@@ -100,10 +100,10 @@ HWY_INLINE void meet_triangle(
         take_meeting<any>(search, leaf, j, group, lanes, i, meeting(i));
 }
 
-/// What the lanes' rays of a beam do at a leaf.
+/// What the lanes' rays of a beam do at a leaf, which they enter not before near.
 template <bool any>
-HWY_INLINE void
-visit_leaf(const Search& search, const TreeChild& leaf, GroupMask lanes, BeamWalk& beam) {
+HWY_INLINE void visit_leaf(
+    const Search& search, const TreeChild& leaf, float near, GroupMask lanes, BeamWalk& beam) {
     const Rays d;
     const float* const rows = rows_of(search.tree, leaf);
     RayGroup& group = *beam.group;
@@ -117,7 +117,7 @@ visit_leaf(const Search& search, const TreeChild& leaf, GroupMask lanes, BeamWal
         if (may == 0)
             return;
         // More is known of what is near from where rays started than from where they end.
-        const bool near_start = group.blur > 0 && leaf.near() > 0.25F * beam.limit;
+        const bool near_start = group.blur > 0 && near > 0.25F * beam.limit;
         for (; may != 0; may &= may - 1) {
             const auto j = static_cast<std::size_t>(std::countr_zero(may));
             meet_triangle<any>(search, leaf, j, group, lanes, [&](std::size_t i) HWY_ATTR {
@@ -214,7 +214,7 @@ HWY_NOINLINE void follow_beams(const Search& search, std::size_t count) {
             BeamWalk& beam = search.space.beams[number];
             if (beam.next.is_block() != 0) {
                 const float before = beam.limit;
-                visit_leaf<any>(search, beam.next, beam.group->followed, beam);
+                visit_leaf<any>(search, beam.next, beam.next.near(), beam.group->followed, beam);
                 if (beam.limit < before)
                     beam.size = beam.limit < 0 ? 0 : drop_behind(beam.stack, beam.size, beam.limit);
             } else {
@@ -304,7 +304,7 @@ HWY_NOINLINE void follow_apart(const Search& search, BeamWalk& beam, std::size_t
                 && leave_for_later<any>(search, group, next, numbers, alone))) {
             // on to the next one
         } else if (next.child.is_block() != 0) {
-            visit_leaf<any>(search, next.child, next.lanes, beam);
+            visit_leaf<any>(search, next.child, next.near, next.lanes, beam);
         } else {
             ++search.counts.nodes;
             size += put_met_children(
