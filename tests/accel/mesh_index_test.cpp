@@ -312,6 +312,24 @@ TEST(MeshHits, AreToldApartByMoreThanSinglePrecision) {
         index.all_hits(ray), (std::vector<MeshHit>{{1, 1, 0.25F, 0.25F}, {1, 0, 0.25F, 0.25F}}));
 }
 
+TEST(MeshIndex, MeetsNothingBeyondTheLargestT) {
+    constexpr float size = 0x1p100F;
+    SampleMesh mesh;
+    mesh.add_triangle({-size, -size, 0}, {size, -size, 0}, {0, size, 0});
+    const MeshIndex index(mesh.spans());
+    // It would be met at t = 2^129.
+    const MeshRay ray = {.origin = {0, 0, -8 * size}, .direction = {0, 0, 0x1p-26F}};
+    EXPECT_FALSE(index.nearest_hit(ray).found());
+    EXPECT_FALSE(index.meets_any(ray));
+    const std::vector<MeshRay> rays(16, ray);
+    std::vector<MeshHit> hits(rays.size());
+    std::vector<std::uint8_t> met(rays.size(), 7);
+    index.nearest_hits(rays, hits);
+    index.meet_any(rays, met);
+    EXPECT_EQ(hits, std::vector<MeshHit>(rays.size()));
+    EXPECT_EQ(met, std::vector<std::uint8_t>(rays.size(), 0));
+}
+
 TEST(MeshIndex, OfNoTrianglesIsMetByNoRay) {
     for (const MeshIndexQuality quality : both_qualities) {
         const MeshIndex index({}, quality);
