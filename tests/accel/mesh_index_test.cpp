@@ -312,6 +312,32 @@ TEST(MeshHits, AreToldApartByMoreThanSinglePrecision) {
         index.all_hits(ray), (std::vector<MeshHit>{{1, 1, 0.25F, 0.25F}, {1, 0, 0.25F, 0.25F}}));
 }
 
+/// Rays from one place go together until they have come to too many triangles between them.
+TEST(MeshIndex, AnswersRaysWithMuchBetweenThemLikeByBruteForce) {
+    constexpr int side = 60;
+    const auto point = [](int x, int y) -> MeshPoint {
+        return {
+            static_cast<float>(x) / side,
+            static_cast<float>(y) / side,
+            0.01F * static_cast<float>((7 * x + 13 * y) % 5)};
+    };
+    SampleMesh mesh;
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x) {
+            mesh.add_triangle(point(x, y), point(x + 1, y), point(x, y + 1));
+            mesh.add_triangle(point(x + 1, y), point(x + 1, y + 1), point(x, y + 1));
+        }
+    std::vector<MeshRay> rays;
+    for (int i = 0; i < 256; ++i) {
+        const auto x = static_cast<float>(i % 4) / 3 + 0.01F * static_cast<float>(i / 16 % 4);
+        const auto y = static_cast<float>(i / 4 % 4) / 3 + 0.01F * static_cast<float>(i / 64);
+        rays.push_back({.origin = {-1, -1, 40}, .direction = {x + 1, y + 1, -40}});
+    }
+    const auto expected = brute_force_answers(mesh.spans(), rays);
+    const MeshIndex index(mesh.spans());
+    expect_answers_by_spans(index, rays, expected, rays.size(), "from far away");
+}
+
 TEST(MeshIndex, MeetsNothingBeyondTheLargestT) {
     constexpr float size = 0x1p100F;
     SampleMesh mesh;

@@ -86,6 +86,7 @@ struct alignas(64) BeamWalk {
     TreeChild* stack = nullptr;         ///< what waits; the next one is on top
     TreeChild next;                     ///< where the group is
     RayGroup* group = nullptr;
+    std::uint32_t steps = 0; ///< that it has taken
 };
 
 /// Whether the lanes' rays all start at one place.
@@ -245,6 +246,7 @@ HWY_INLINE bool start_beam(RayGroup& group, bool any, TreeChild* stack, BeamWalk
     beam.size = 0;
     beam.stack = stack;
     beam.next = TreeChild::node(0);
+    beam.steps = 0;
     return true;
 }
 

@@ -54,7 +54,9 @@ HWY_INLINE std::size_t search_rays(const Search& search, std::span<const MeshRay
         }
     }
     if (narrow > 0)
-        follow_beams<any>(search, narrow);
+        for (std::uint32_t rest = follow_beams<any>(search, narrow); rest != 0; rest &= rest - 1)
+            follow_apart<any>(
+                search, space.beams[static_cast<std::size_t>(std::countr_zero(rest))], alone);
     if (alone > 0)
         follow_alone<any>(search, alone);
     return groups;

@@ -203,15 +203,25 @@ HWY_INLINE void fetch(const MeshTree& tree, const TreeChild& child) {
     fetch(tree.nodes.data(), tree.leaves.data(), mesh_leaf_rows * sizeof(float), child);
 }
 
-/// Follows the beams down from the root, a step each in turn.
+/// Where a beam has taken so many steps, what it meets is smaller than the space between its rays.
+constexpr std::uint32_t most_steps = 48;
+
+/// Follows the beams down from the root, a step each in turn; returns the numbers, as bits, of
+/// those that have taken too many to go on like this.
 template <bool any>
-HWY_NOINLINE void follow_beams(const Search& search, std::size_t count) {
+HWY_NOINLINE std::uint32_t follow_beams(const Search& search, std::size_t count) {
     const MeshTree& tree = search.tree;
     std::uint32_t under_way = (std::uint32_t{1} << count) - 1;
+    std::uint32_t fanned_out = 0;
     while (under_way != 0) {
         for (std::uint32_t rest = under_way; rest != 0; rest &= rest - 1) {
             const auto number = static_cast<std::size_t>(std::countr_zero(rest));
             BeamWalk& beam = search.space.beams[number];
+            if (HWY_UNLIKELY(++beam.steps > most_steps)) {
+                fanned_out |= std::uint32_t{1} << number;
+                under_way &= ~(std::uint32_t{1} << number);
+                continue;
+            }
             if (beam.next.is_block() != 0) {
                 const float before = beam.limit;
                 visit_leaf<any>(search, beam.next, beam.next.near(), beam.group->followed, beam);
@@ -227,6 +237,7 @@ HWY_NOINLINE void follow_beams(const Search& search, std::size_t count) {
                 under_way &= ~(std::uint32_t{1} << number);
         }
     }
+    return fanned_out;
 }
 
 /// So few rays go on alone.
@@ -285,7 +296,7 @@ HWY_INLINE GroupMask reaching(const RayGroup& group, float near) {
     return lanes;
 }
 
-/// Follows a beam down from the root, with an eye on which of its rays meet a box. Where few are
+/// Follows a beam on from where it is, with an eye on which of its rays meet a box. Where few are
 /// left, each is left to go on alone: those are added to the ones that go alone.
 template <bool any>
 HWY_NOINLINE void follow_apart(const Search& search, BeamWalk& beam, std::size_t& alone) {
@@ -297,7 +308,9 @@ HWY_NOINLINE void follow_apart(const Search& search, BeamWalk& beam, std::size_t
     const std::size_t first_alone = alone;
     WaitingGroup* const stack = search.space.waiting_groups.data();
     std::size_t size = 0;
-    WaitingGroup next = {TreeChild::node(0), group.followed, 0};
+    for (std::uint32_t i = 0; i < beam.size; ++i)
+        stack[size++] = {beam.stack[i], group.followed, beam.stack[i].near()};
+    WaitingGroup next = {beam.next, group.followed & ~group.met, 0};
     while (true) {
         if (next.lanes == 0
             || (std::popcount(next.lanes) <= few_rays
