@@ -442,7 +442,8 @@ TEST(MeshIndex, CountsItsStepsBesideWhatWasCounted) {
     MeshQueryCounts any;
     index.meet_any(rays, met, &any);
     EXPECT_GT(any.nodes, 0U);
-    EXPECT_LE(any.triangles, once.triangles);
+    EXPECT_GT(any.triangles, 0U);
+    EXPECT_LT(any.triangles, rays.size() * mesh.triangles.size() / 10);
 }
 
 } // namespace

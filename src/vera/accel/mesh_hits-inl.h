@@ -177,6 +177,11 @@ HWY_NOINLINE MeshHit decide_doubtful(
     return nearest.hit();
 }
 
+/// The lanes of rays that single precision cannot follow.
+HWY_INLINE GroupMask not_followed(const RayGroup& group) {
+    return ((GroupMask{1} << group.rays.size()) - 1) & ~group.followed;
+}
+
 /// The hits of the groups that were searched for.
 HWY_INLINE void take_hits(const Search& search, std::size_t groups, std::span<MeshHit> hits) {
     const Workspace& space = search.space;
@@ -193,9 +198,10 @@ HWY_INLINE void take_hits(const Search& search, std::size_t groups, std::span<Me
                 group.place[lane],
                 group.doubtful[lane]);
         }
-        for (std::size_t lane = 0; lane < group.rays.size(); ++lane)
-            if ((group.followed >> lane & 1U) == 0)
-                of_group[lane] = nearest_plainly(search.tree, group.rays[lane]);
+        for (GroupMask rest = not_followed(group); rest != 0; rest &= rest - 1) {
+            const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+            of_group[lane] = nearest_plainly(search.tree, group.rays[lane]);
+        }
     }
 }
 
@@ -203,10 +209,11 @@ HWY_INLINE void take_met(const Search& search, std::size_t groups, std::span<std
     for (std::size_t i = 0; i < groups; ++i) {
         const RayGroup& group = search.space.groups[i];
         std::uint8_t* const of_group = met.data() + i * group_size;
-        for (std::size_t lane = 0; lane < group.rays.size(); ++lane) {
-            of_group[lane] = (group.met >> lane & 1U) != 0 ? 1 : 0;
-            if ((group.followed >> lane & 1U) == 0)
-                of_group[lane] = meets_any_plainly(search.tree, group.rays[lane]) ? 1 : 0;
+        for (std::size_t lane = 0; lane < group.rays.size(); ++lane)
+            of_group[lane] = static_cast<std::uint8_t>(group.met >> lane & 1U);
+        for (GroupMask rest = not_followed(group); rest != 0; rest &= rest - 1) {
+            const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+            of_group[lane] = meets_any_plainly(search.tree, group.rays[lane]) ? 1 : 0;
         }
     }
 }

@@ -205,25 +205,18 @@ HWY_INLINE hn::Vec<D> depth_error(D d, const Sides<hn::Vec<D>>& sides, hn::Vec<D
         hn::Set(d, volume_underflow));
 }
 
-/// Where lines may pass the origin so far, a way from there is as badly known as one that is longer
-/// by this.
-inline float blurred_way(float blur) {
-    return blur / (0.25F * depth_rounding);
-}
-
-/// How rays pass triangles; direction_size and blur as in a RayGroup.
+/// How rays pass triangles; direction_size as in a RayGroup.
 template <typename D>
 HWY_INLINE Passing<hn::Vec<D>> passing_triangle(
     D d,
     const Vector<hn::Vec<D>>& origin,
     const Vector<hn::Vec<D>>& direction,
     float direction_size,
-    float blur,
     const Sides<hn::Vec<D>>& sides) {
     using V = hn::Vec<D>;
     const Vector<V> way = difference(sides.corner, origin);
     const Vector<V> moment = cross_product(way, direction);
-    const V q = hn::Add(largest(way), hn::Set(d, blurred_way(blur)));
+    const V q = largest(way);
     return {
         product(moment, sides.f),
         hn::Neg(product(moment, sides.e)),
@@ -258,7 +251,7 @@ see_triangles(const float* rows, std::size_t size, const BeamWalk& beam, SeenTri
         const Vector<V> v = cross_product(way, sides.e);
         const Vector<V>& normal = sides.normal;
         const V depth = product(normal, way);
-        const V q = hn::Add(largest(way), hn::Set(d, blurred_way(group.blur)));
+        const V q = largest(way);
         const V u_v_error = side_error(d, sides, beam.direction_size, q);
         const V n_error = speed_error(d, sides, group.direction_size);
         const V t_error = depth_error(d, sides, q);
@@ -308,15 +301,13 @@ see_triangles(const float* rows, std::size_t size, const BeamWalk& beam, SeenTri
     return may & ((std::uint32_t{1} << size) - 1);
 }
 
-/// How the group's rays from i on, which start at one origin, pass a triangle that was seen.
+/// How rays of these directions, which start at one origin, pass a triangle that was seen from it.
 HWY_INLINE Passing<hn::Vec<Rays>> passing_seen(
-    Rays d, const RayGroup& group, std::size_t i, const SeenTriangles& seen, std::size_t triangle) {
-    using V = hn::Vec<Rays>;
+    Rays d,
+    const Vector<hn::Vec<Rays>>& direction,
+    const SeenTriangles& seen,
+    std::size_t triangle) {
     const auto value = [&](std::size_t j) HWY_ATTR { return hn::Set(d, seen.rows[j][triangle]); };
-    const Vector<V> direction = {
-        hn::Load(d, group.direction[0].data() + i),
-        hn::Load(d, group.direction[1].data() + i),
-        hn::Load(d, group.direction[2].data() + i)};
     return {
         product({value(0), value(1), value(2)}, direction),
         product({value(3), value(4), value(5)}, direction),
@@ -325,90 +316,6 @@ HWY_INLINE Passing<hn::Vec<Rays>> passing_seen(
         value(10),
         value(11),
         value(12)};
-}
-
-/// The triangles of a leaf, number by number, for rays from anywhere.
-struct StoredTriangles {
-    static constexpr std::size_t count = 14;
-    alignas(64) float rows[count][mesh_leaf_size];
-};
-
-HWY_INLINE void store_triangles(const float* rows, std::size_t size, StoredTriangles& stored) {
-    const Triangles d;
-    for (std::size_t i = 0; i < size; i += hn::Lanes(d)) {
-        const auto sides = sides_at(d, rows, size, i);
-        const hn::Vec<Triangles> values[StoredTriangles::count] = {
-            sides.corner.x,
-            sides.corner.y,
-            sides.corner.z,
-            sides.e.x,
-            sides.e.y,
-            sides.e.z,
-            sides.f.x,
-            sides.f.y,
-            sides.f.z,
-            sides.normal.x,
-            sides.normal.y,
-            sides.normal.z,
-            sides.size,
-            sides.product};
-        for (std::size_t j = 0; j < StoredTriangles::count; ++j)
-            hn::Store(values[j], d, stored.rows[j] + i);
-    }
-}
-
-/// How the group's rays from i on pass a triangle that was stored.
-HWY_INLINE Passing<hn::Vec<Rays>> passing_stored(
-    Rays d,
-    const RayGroup& group,
-    std::size_t i,
-    const StoredTriangles& stored,
-    std::size_t triangle) {
-    using V = hn::Vec<Rays>;
-    const auto value = [&](std::size_t j) HWY_ATTR { return hn::Set(d, stored.rows[j][triangle]); };
-    const Vector<V> origin = {
-        hn::Load(d, group.origin[0].data() + i),
-        hn::Load(d, group.origin[1].data() + i),
-        hn::Load(d, group.origin[2].data() + i)};
-    const Vector<V> direction = {
-        hn::Load(d, group.direction[0].data() + i),
-        hn::Load(d, group.direction[1].data() + i),
-        hn::Load(d, group.direction[2].data() + i)};
-    const Sides<V> sides = {
-        {value(0), value(1), value(2)},
-        {value(3), value(4), value(5)},
-        {value(6), value(7), value(8)},
-        {value(9), value(10), value(11)},
-        value(12),
-        value(13)};
-    return passing_triangle(d, origin, direction, group.direction_size, group.blur, sides);
-}
-
-/// How the rays from i on of a group that was turned round meet triangle j of a leaf, seen from
-/// where they started: more is known of what is near there.
-HWY_NOINLINE MeshMeeting<Rays> meeting_from_start(
-    Rays d,
-    const RayGroup& group,
-    std::size_t i,
-    const float* rows,
-    std::size_t size,
-    std::size_t j) {
-    using V = hn::Vec<Rays>;
-    const auto value = [&](std::size_t row) HWY_ATTR { return hn::Set(d, rows[row * size + j]); };
-    const auto vector = [&](const GroupRow<float>* of_axis) HWY_ATTR {
-        return Vector<V>{
-            hn::Load(d, of_axis[0].data() + i),
-            hn::Load(d, of_axis[1].data() + i),
-            hn::Load(d, of_axis[2].data() + i)};
-    };
-    const Vector<V> back = vector(group.direction);
-    const Vector<V> direction = {hn::Neg(back.x), hn::Neg(back.y), hn::Neg(back.z)};
-    return meeting_triangle(
-        d,
-        passing_triangle(
-            d, vector(group.start), direction, group.direction_size, 0, sides_of(d, value)),
-        hn::Load(d, group.start_t_min.data() + i),
-        hn::Load(d, group.t_max.data() + i));
 }
 
 } // namespace vera::detail::HWY_NAMESPACE

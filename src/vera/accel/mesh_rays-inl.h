@@ -62,11 +62,6 @@ struct RayGroup {
     GroupMask met = 0;        ///< where only this is asked: the lanes that surely meet something
     float direction_size = 0; ///< the largest sum of a direction's coordinates, without signs
     float slack = 0;          ///< how far boxes are enlarged for what is rounded
-    /// How far the lines of rays may pass the origins. Where that is more than 0, the rays were
-    /// turned round, and these say where they started, before.
-    float blur = 0;
-    GroupRow<float> start[3];
-    GroupRow<float> start_t_min;
 };
 
 /// No place in a leaf.
@@ -78,6 +73,9 @@ inline std::uint32_t place_in_leaf(std::size_t size, std::size_t i) {
 }
 
 HWY_INLINE hn::Mask<Rays> in_group(Rays d, GroupMask set, std::size_t first) {
+#if VERA_COMPRESS_CHILDREN
+    return {static_cast<__mmask16>(set >> first)};
+#endif
     const std::uint8_t bytes[8] = {
         static_cast<std::uint8_t>(set >> first), static_cast<std::uint8_t>(set >> first >> 8U)};
     return hn::LoadMaskBits(d, bytes);
@@ -94,6 +92,13 @@ constexpr int least_t_exponent = 17;
 /// 2^(exponents - 127), for exponents as they stand in a float: from 1 to 254.
 HWY_INLINE hn::Vec<Rays> power_of_two(hn::Vec<RayInts> exponents) {
     return hn::BitCast(Rays(), hn::ShiftLeft<23>(exponents));
+}
+
+/// How far boxes are enlarged for what is rounded, where no coordinate of an origin is larger.
+inline float rounding_slack(float largest_origin) {
+    // A plane's place is rounded by up to five units of 2^-24 of what is added up: the plane's
+    // coordinate, which is at most 1, and the origin's.
+    return 0x1p-20F * (1 + largest_origin);
 }
 
 /// Fills in what follows from the rows of the rays as they were given.
@@ -185,10 +190,7 @@ HWY_INLINE void place_group(const MeshTree& tree, GroupMask lanes, RayGroup& gro
             hn::Max(largest_direction, hn::IfThenElseZero(followed, direction_size));
     }
     group.direction_size = hn::GetLane(hn::MaxOfLanes(d, largest_direction)) * (1 + 0x1p-20F);
-    // A plane's place is rounded by up to five units of 2^-24 of what is added up: the plane's
-    // coordinate, which is at most 1, and the origin's.
-    group.blur = 0;
-    group.slack = 0x1p-20F * (1 + hn::GetLane(hn::MaxOfLanes(d, largest_origin)));
+    group.slack = rounding_slack(hn::GetLane(hn::MaxOfLanes(d, largest_origin)));
 }
 
 /// Writes four times four numbers column by column: number i of from[j] becomes number j of to[i].
@@ -215,20 +217,11 @@ transpose(const std::array<const float*, 4>& from, const std::array<float*, 4>& 
 #endif
 }
 
-/// Writes up to group_size rays row by row, and places them.
-HWY_INLINE void start_group(const MeshTree& tree, std::span<const MeshRay> rays, RayGroup& group) {
+/// Writes group_size rays row by row.
+HWY_INLINE void fill_rows(const MeshRay* from, RayGroup& group) {
     static_assert(offsetof(MeshRay, t_min) == 3 * sizeof(float));
     static_assert(offsetof(MeshRay, direction) == 4 * sizeof(float));
     static_assert(offsetof(MeshRay, t_max) == 7 * sizeof(float));
-    group.rays = rays;
-    std::array<MeshRay, group_size> copies;
-    const MeshRay* from = rays.data();
-    if (rays.size() < group_size) {
-        // What is missing is a copy of the last.
-        for (std::size_t lane = 0; lane < group_size; ++lane)
-            copies[lane] = rays[std::min(lane, rays.size() - 1)];
-        from = copies.data();
-    }
     for (std::size_t lane = 0; lane < group_size; lane += 4) {
         const MeshRay* const four = from + lane;
         transpose(
@@ -249,6 +242,20 @@ HWY_INLINE void start_group(const MeshTree& tree, std::span<const MeshRay> rays,
              &group.direction[1][lane],
              &group.direction[2][lane],
              &group.t_max[lane]});
+    }
+}
+
+/// Writes up to group_size rays row by row, and places them.
+HWY_INLINE void start_group(const MeshTree& tree, std::span<const MeshRay> rays, RayGroup& group) {
+    group.rays = rays;
+    if (rays.size() < group_size) {
+        // What is missing is a copy of the last.
+        std::array<MeshRay, group_size> copies;
+        for (std::size_t lane = 0; lane < group_size; ++lane)
+            copies[lane] = rays[std::min(lane, rays.size() - 1)];
+        fill_rows(copies.data(), group);
+    } else {
+        fill_rows(rays.data(), group);
     }
     // Where corners lost digits, what is sure in single precision is sure of other corners.
     place_group(tree, tree.exact ? (GroupMask{1} << rays.size()) - 1 : 0, group);

@@ -25,49 +25,143 @@ namespace vera::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Up to rays_at_once rays through the tree; returns in how many groups.
+/// Lets the processor fetch the rays of the next group.
+HWY_INLINE void fetch_rays(std::span<const MeshRay> rays, std::size_t first) {
+    constexpr std::size_t rays_of_line = 2;
+    const std::size_t end = std::min(rays.size(), first + group_size);
+    for (std::size_t i = first; i < end; i += rays_of_line)
+        hwy::Prefetch(&rays[i]);
+}
+
+/// Numbers of single rays, octant by octant, and how many streams there are.
+struct Gathered {
+    std::array<std::array<std::uint16_t, rays_at_once>, octant_count> of_octant;
+    std::array<std::size_t, octant_count> counts = {};
+    std::size_t streams = 0;
+};
+
+/// The number of the first of the group's rays among all.
+HWY_INLINE std::size_t first_ray(const Search& search, const RayGroup& group) {
+    return static_cast<std::size_t>(&group - search.space.groups.data()) * group_size;
+}
+
+/// Adds the group's rays to those that go through the tree in streams from the root on.
+HWY_INLINE void gather(const Search& search, RayGroup& group, Gathered& gathered) {
+    const std::size_t first = first_ray(search, group);
+    write_singles(group, &search.space.singles[first]);
+    const auto backward = backward_lanes(group);
+    for (std::size_t octant = 0; octant < octant_count; ++octant) {
+        GroupMask lanes = group.followed;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            lanes &= (octant >> axis & 1U) != 0 ? backward[axis] : ~backward[axis];
+        std::size_t& count = gathered.counts[octant];
+        std::uint16_t* const numbers = gathered.of_octant[octant].data();
+        for (; lanes != 0; lanes &= lanes - 1)
+            numbers[count++] = static_cast<std::uint16_t>(
+                first + static_cast<std::size_t>(std::countr_zero(lanes)));
+    }
+}
+
+/// Makes a stream of the rays of a beam, which goes on where the beam is.
+HWY_NOINLINE void go_on_as_stream(const Search& search, const BeamWalk& beam, Gathered& gathered) {
+    RayGroup& group = *beam.group;
+    const std::size_t first = first_ray(search, group);
+    write_singles(group, &search.space.singles[first]);
+    std::array<std::uint16_t, group_size> numbers;
+    std::size_t count = 0;
+    for (GroupMask rest = group.followed; rest != 0; rest &= rest - 1)
+        numbers[count++] =
+            static_cast<std::uint16_t>(first + static_cast<std::size_t>(std::countr_zero(rest)));
+    RayStream& stream =
+        start_stream(search, gathered.streams++, {numbers.data(), count}, beam.order, false);
+    const auto wait = [&](const TreeChild& child) HWY_ATTR {
+        stream.children[stream.size] = child;
+        stream.waiting[stream.size++] = stream.left;
+    };
+    std::for_each(beam.stack, beam.stack + beam.size, wait);
+    wait(beam.next);
+}
+
+/// Sets the rays that were gathered on their way, and follows all streams.
 template <bool any>
-HWY_INLINE std::size_t search_rays(const Search& search, std::span<const MeshRay> rays) {
+HWY_INLINE void follow_gathered(const Search& search, Gathered& gathered) {
+    for (std::size_t octant = 0; octant < octant_count; ++octant)
+        for (std::size_t i = 0; i < gathered.counts[octant]; i += stream_size) {
+            RayStream& stream = start_stream(
+                search,
+                gathered.streams++,
+                {&gathered.of_octant[octant][i],
+                 std::min(stream_size, gathered.counts[octant] - i)},
+                octant,
+                any);
+            stream.children[0] = TreeChild::node(0);
+            stream.waiting[0] = stream.left;
+            stream.size = 1;
+        }
+    if (gathered.streams > 0)
+        follow_streams<any>(search, gathered.streams);
+}
+
+/// Up to rays_at_once rays through the tree; returns in how many groups.
+HWY_INLINE std::size_t follow_to_nearest(const Search& search, std::span<const MeshRay> rays) {
     Workspace& space = search.space;
     space.doubtful.clear();
     std::size_t groups = 0;
-    std::size_t narrow = 0;
-    std::size_t alone = 0;
+    std::size_t beams = 0;
+    Gathered gathered;
+    const auto follow = [&]() HWY_ATTR {
+        for (std::uint32_t rest = follow_beams(search, beams); rest != 0; rest &= rest - 1)
+            go_on_as_stream(
+                search, space.beams[static_cast<std::size_t>(std::countr_zero(rest))], gathered);
+        beams = 0;
+    };
     for (std::size_t first = 0; first < rays.size(); first += group_size) {
         RayGroup& group = space.groups[groups++];
+        fetch_rays(rays, first + group_size);
         start_group(
             search.tree, rays.subspan(first, std::min(group_size, rays.size() - first)), group);
-        BeamWalk& beam = space.beams[narrow];
-        if (std::popcount(group.followed) > few_rays
-            && start_beam(group, any, stack_of(search, rays_at_once + narrow), beam)) {
-            if (beam.narrow)
-                ++narrow;
-            else
-                follow_apart<any>(search, beam, alone);
-            continue;
-        }
-        for (GroupMask rest = group.followed; rest != 0; rest &= rest - 1) {
-            const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-            RayWalk& ray = space.alone[alone];
-            start_alone(group, lane, any, stack_of(search, alone++), ray);
-            ray.walk.stack[ray.walk.size++] = TreeChild::node(0);
-        }
+        if (std::popcount(group.followed) <= few_rays
+            || !start_beam(group, stack_of(search, beams), space.beams[beams]))
+            gather(search, group, gathered);
+        else if (++beams == beams_at_once)
+            follow();
     }
-    if (narrow > 0)
-        for (std::uint32_t rest = follow_beams<any>(search, narrow); rest != 0; rest &= rest - 1)
-            follow_apart<any>(
-                search, space.beams[static_cast<std::size_t>(std::countr_zero(rest))], alone);
-    if (alone > 0)
-        follow_alone<any>(search, alone);
+    if (beams > 0)
+        follow();
+    follow_gathered<false>(search, gathered);
     return groups;
 }
 
-/// Follows one ray down from the root; true when it is only asked whether it meets anything, and it
-/// does.
+/// The same for rays of which only is asked whether they meet anything.
+HWY_INLINE std::size_t follow_to_any(const Search& search, std::span<const MeshRay> rays) {
+    std::size_t groups = 0;
+    Gathered gathered;
+    for (std::size_t first = 0; first < rays.size(); first += group_size) {
+        RayGroup& group = search.space.groups[groups++];
+        fetch_rays(rays, first + group_size);
+        start_group(
+            search.tree, rays.subspan(first, std::min(group_size, rays.size() - first)), group);
+        gather(search, group, gathered);
+    }
+    follow_gathered<true>(search, gathered);
+    return groups;
+}
+
+/// Follows one ray of an octant down from the root; true when it is only asked whether it meets
+/// anything, and it does.
 template <bool any>
-HWY_INLINE bool follow_single(const Search& search, RayWalk& ray) {
+HWY_INLINE bool follow_single(const Search& search, std::size_t octant, SingleRay& ray) {
     const MeshTree& tree = search.tree;
-    Walk& walk = ray.walk;
+    Walk walk;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        walk.inverse[axis] = ray.inverse[axis];
+        walk.near_offset[axis] = ray.near_offset[axis];
+        walk.far_offset[axis] = ray.far_offset[axis];
+    }
+    walk.places = plane_places[octant];
+    walk.order = static_cast<std::uint8_t>(any ? any_order : octant);
+    walk.size = 0;
+    walk.stack = stack_of(search, 0);
     TreeChild next = TreeChild::node(0);
     while (true) {
         if (next.is_block() != 0) {
@@ -87,7 +181,7 @@ HWY_INLINE bool follow_single(const Search& search, RayWalk& ray) {
 }
 
 /// The hit of a ray that was followed alone.
-HWY_INLINE MeshHit hit_of_single(const Search& search, const RayWalk& ray, float per_t_scale) {
+HWY_INLINE MeshHit hit_of_single(const Search& search, const SingleRay& ray, float per_t_scale) {
     const MeshTree& tree = search.tree;
     const RayGroup& group = *ray.group;
     if (HWY_UNLIKELY(group.in_doubt != 0))
@@ -115,10 +209,11 @@ HWY_INLINE MeshHit hit_of_single(const Search& search, const RayWalk& ray, float
 
 Workspace& workspace_of_this_thread(const MeshTree& tree) {
     thread_local Workspace space;
-    const std::size_t depth = waiting_depth(tree.statistics.levels) + most_left;
+    const std::size_t depth = waiting_depth(tree.statistics.levels);
     if (space.depth < depth) {
-        space.waiting.resize((rays_at_once + groups_at_once) * depth);
-        space.waiting_groups.resize(depth);
+        space.waiting.resize(beams_at_once * depth);
+        space.stream_children.resize(streams_at_once * depth);
+        space.stream_waiting.resize(streams_at_once * depth);
         space.depth = depth;
     }
     return space;
@@ -132,12 +227,13 @@ void search_nearest_kernel(
     const Search search = {tree, workspace_of_this_thread(tree), counts};
     if (rays.size() == 1) {
         search.space.doubtful.clear();
-        RayWalk& ray = search.space.alone.front();
+        SingleRay& ray = search.space.singles.front();
+        std::size_t octant = 0;
         float per_t_scale = 1;
         ray.group = &search.space.groups.front();
         ray.group->in_doubt = 0;
-        if (start_single(tree, rays[0], false, stack_of(search, 0), ray, per_t_scale)) {
-            follow_single<false>(search, ray);
+        if (start_single(tree, rays[0], ray, octant, per_t_scale)) {
+            follow_single<false>(search, octant, ray);
             hits[0] = hit_of_single(search, ray, per_t_scale);
         } else {
             hits[0] = nearest_plainly(tree, rays[0]);
@@ -146,7 +242,7 @@ void search_nearest_kernel(
     }
     for (std::size_t first = 0; first < rays.size(); first += rays_at_once) {
         const std::size_t count = std::min(rays_at_once, rays.size() - first);
-        const std::size_t groups = search_rays<false>(search, rays.subspan(first, count));
+        const std::size_t groups = follow_to_nearest(search, rays.subspan(first, count));
         take_hits(search, groups, hits.subspan(first, count));
     }
 }
@@ -158,17 +254,18 @@ void search_any_kernel(
     MeshQueryCounts& counts) {
     const Search search = {tree, workspace_of_this_thread(tree), counts};
     if (rays.size() == 1) {
-        RayWalk& ray = search.space.alone.front();
+        SingleRay& ray = search.space.singles.front();
+        std::size_t octant = 0;
         float per_t_scale = 1;
-        const bool meets = start_single(tree, rays[0], true, stack_of(search, 0), ray, per_t_scale)
-            ? follow_single<true>(search, ray)
+        const bool meets = start_single(tree, rays[0], ray, octant, per_t_scale)
+            ? follow_single<true>(search, octant, ray)
             : meets_any_plainly(tree, rays[0]);
         met[0] = meets ? 1 : 0;
         return;
     }
     for (std::size_t first = 0; first < rays.size(); first += rays_at_once) {
         const std::size_t count = std::min(rays_at_once, rays.size() - first);
-        const std::size_t groups = search_rays<true>(search, rays.subspan(first, count));
+        const std::size_t groups = follow_to_any(search, rays.subspan(first, count));
         take_met(search, groups, met.subspan(first, count));
     }
 }

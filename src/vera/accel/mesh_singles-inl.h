@@ -12,10 +12,12 @@
 #include "vera/accel/mesh_rays-inl.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 
 #include <hwy/highway.h>
@@ -26,58 +28,103 @@ namespace vera::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// A ray that goes through the tree alone.
-struct alignas(64) RayWalk {
-    Walk walk;
+/// A ray that is tested against boxes and triangles by itself. See Walk and RayGroup.
+struct alignas(64) SingleRay {
+    // What boxes need, and most of what triangles need, side by side.
+    float inverse[3];
+    float near_offset[3];
+    float far_offset[3];
+    float limit;
     float origin[3];
     float direction[3];
-    float direction_size = 0; ///< this and the next: see RayGroup
-    float blur = 0;
-    float t_min = 0;
-    float limit = 0;
-    float near = 0;
-    std::uint32_t leaf = 0;
-    std::uint32_t place = no_place;
-    std::uint32_t lane = 0;
-    RayGroup* group = nullptr; ///< where it stands among others
-    const MeshRay* given = nullptr;
+
+    float t_min;
+    float near;
+    std::uint32_t leaf;
+    std::uint32_t place;
+    float direction_size;
+    std::uint32_t lane;
+    RayGroup* group; ///< where it stands among others
+    const MeshRay* given;
 };
 
-/// Lets the ray begin at the root, or where it is left.
-HWY_INLINE void
-start_walk(const float* inverse, float slack, bool any, TreeChild* stack, RayWalk& ray) {
-    std::size_t octant = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const float outward = std::copysign(slack, inverse[axis]);
-        ray.walk.inverse[axis] = inverse[axis];
-        ray.walk.near_offset[axis] = -(ray.origin[axis] + outward) * inverse[axis];
-        ray.walk.far_offset[axis] = -(ray.origin[axis] - outward) * inverse[axis];
-        octant |= std::size_t{std::signbit(inverse[axis])} << axis;
+/// The rays of the group, of which those that are not followed may be anything.
+HWY_INLINE void write_singles(RayGroup& group, SingleRay* rays) {
+    static_assert(offsetof(SingleRay, direction) == 13 * sizeof(float));
+    static_assert(offsetof(SingleRay, place) == 19 * sizeof(float));
+    const Rays d;
+    GroupRow<float> near_offset[3];
+    GroupRow<float> far_offset[3];
+    const auto slack = hn::Set(d, group.slack);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        for (std::size_t i = 0; i < group_size; i += hn::Lanes(d)) {
+            const auto inverse = hn::Load(d, group.inverse[axis].data() + i);
+            const auto origin = hn::Load(d, group.origin[axis].data() + i);
+            const auto outward = hn::CopySign(slack, inverse);
+            hn::Store(
+                hn::Neg(hn::Mul(hn::Add(origin, outward), inverse)),
+                d,
+                near_offset[axis].data() + i);
+            hn::Store(
+                hn::Neg(hn::Mul(hn::Sub(origin, outward), inverse)),
+                d,
+                far_offset[axis].data() + i);
+        }
+    // As bits of floats.
+    GroupRow<float> leaf;
+    GroupRow<float> place;
+    std::memcpy(leaf.data(), group.leaf.data(), sizeof(leaf));
+    std::memcpy(place.data(), group.place.data(), sizeof(place));
+    const std::array<const float*, 20> rows = {
+        group.inverse[0].data(),
+        group.inverse[1].data(),
+        group.inverse[2].data(),
+        near_offset[0].data(),
+        near_offset[1].data(),
+        near_offset[2].data(),
+        far_offset[0].data(),
+        far_offset[1].data(),
+        far_offset[2].data(),
+        group.limit.data(),
+        group.origin[0].data(),
+        group.origin[1].data(),
+        group.origin[2].data(),
+        group.direction[0].data(),
+        group.direction[1].data(),
+        group.direction[2].data(),
+        group.t_min.data(),
+        group.near.data(),
+        leaf.data(),
+        place.data()};
+    for (std::size_t lane = 0; lane < group_size; lane += 4)
+        for (std::size_t row = 0; row < rows.size(); row += 4) {
+            const auto place_in = [&](std::size_t i) HWY_ATTR {
+                return reinterpret_cast<float*>(rays + lane + i) + row;
+            };
+            transpose(
+                {rows[row] + lane,
+                 rows[row + 1] + lane,
+                 rows[row + 2] + lane,
+                 rows[row + 3] + lane},
+                {place_in(0), place_in(1), place_in(2), place_in(3)});
+        }
+    for (std::size_t lane = 0; lane < group_size; ++lane) {
+        rays[lane].direction_size = group.direction_size;
+        rays[lane].lane = static_cast<std::uint32_t>(lane);
+        rays[lane].group = &group;
+        rays[lane].given = group.rays.data() + lane;
     }
-    ray.walk.places = plane_places[octant];
-    ray.walk.order = static_cast<std::uint8_t>(any ? any_order : octant);
-    ray.walk.size = 0;
-    ray.walk.stack = stack;
-    ray.place = no_place;
 }
 
-HWY_INLINE void
-start_alone(RayGroup& group, std::size_t lane, bool any, TreeChild* stack, RayWalk& ray) {
-    float inverse[3];
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        ray.origin[axis] = group.origin[axis][lane];
-        ray.direction[axis] = group.direction[axis][lane];
-        inverse[axis] = group.inverse[axis][lane];
-    }
-    ray.direction_size = group.direction_size;
-    ray.blur = group.blur;
-    ray.t_min = group.t_min[lane];
-    ray.limit = group.limit[lane];
-    ray.near = group.near[lane];
-    ray.lane = static_cast<std::uint32_t>(lane);
-    ray.group = &group;
-    ray.given = &group.rays[lane];
-    start_walk(inverse, group.slack, any, stack, ray);
+/// Along each axis, the lanes of the group's rays that run backward.
+HWY_INLINE std::array<GroupMask, 3> backward_lanes(const RayGroup& group) {
+    const Rays d;
+    std::array<GroupMask, 3> backward = {};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        for (std::size_t i = 0; i < group_size; i += hn::Lanes(d))
+            backward[axis] |=
+                bits_of(d, hn::Lt(hn::Load(d, group.inverse[axis].data() + i), hn::Zero(d))) << i;
+    return backward;
 }
 
 /// The factor 2^(exponent - 127), of an exponent as it stands in a float: from 1 to 254.
@@ -85,14 +132,13 @@ inline float power_of_two(int exponent) {
     return std::bit_cast<float>(static_cast<std::uint32_t>(exponent) << 23U);
 }
 
-/// The same for one ray that is asked about alone, as place_group() does it; false where single
-/// precision cannot follow it. per_t_scale as in a RayGroup.
+/// Fills in a ray that is asked about alone, as place_group() does it; false where single precision
+/// cannot follow it. per_t_scale as in a RayGroup.
 HWY_INLINE bool start_single(
     const MeshTree& tree,
     const MeshRay& given,
-    bool any,
-    TreeChild* stack,
-    RayWalk& ray,
+    SingleRay& ray,
+    std::size_t& octant,
     float& per_t_scale) {
     const float size = std::max(
         std::abs(given.direction[0]),
@@ -130,11 +176,19 @@ HWY_INLINE bool start_single(
     if (!followed)
         return false;
     ray.direction_size = direction_size * (1 + 0x1p-20F);
-    ray.blur = 0;
     ray.near = std::numeric_limits<float>::infinity();
+    ray.place = no_place;
     ray.lane = 0;
     ray.given = &given;
-    start_walk(inverse, 0x1p-20F * (1 + origin_size), any, stack, ray);
+    octant = 0;
+    const float slack = rounding_slack(origin_size);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const float outward = std::copysign(slack, inverse[axis]);
+        ray.inverse[axis] = inverse[axis];
+        ray.near_offset[axis] = -(ray.origin[axis] + outward) * inverse[axis];
+        ray.far_offset[axis] = -(ray.origin[axis] - outward) * inverse[axis];
+        octant |= std::size_t{std::signbit(inverse[axis])} << axis;
+    }
     return true;
 }
 

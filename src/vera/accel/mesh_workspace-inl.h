@@ -13,6 +13,7 @@
 #include "vera/accel/mesh_crossing.h"
 #include "vera/accel/mesh_rays-inl.h"
 #include "vera/accel/mesh_singles-inl.h"
+#include "vera/accel/mesh_streams-inl.h"
 #include "vera/accel/mesh_tree.h"
 
 #include <array>
@@ -30,8 +31,16 @@ namespace vera::detail::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 /// Groups that are searched for together, so that they can take steps in turn.
-constexpr std::size_t groups_at_once = 2;
+constexpr std::size_t groups_at_once = 16;
 constexpr std::size_t rays_at_once = groups_at_once * group_size;
+
+constexpr std::size_t beams_at_once = 8;
+
+/// As many as there are groups, or octants with a stream that is not full.
+constexpr std::size_t streams_at_once = groups_at_once + octant_count;
+
+/// So few rays of a group do not make a beam.
+constexpr int few_rays = 6;
 
 /// No number of a Doubtful.
 constexpr std::uint32_t no_doubtful = ~std::uint32_t{0};
@@ -45,11 +54,13 @@ struct Doubtful {
 /// What a search holds; each thread keeps one.
 struct Workspace {
     std::array<RayGroup, groups_at_once> groups;
-    std::array<BeamWalk, groups_at_once> beams;
-    std::array<RayWalk, rays_at_once> alone;
+    std::array<BeamWalk, beams_at_once> beams;
+    std::array<SingleRay, rays_at_once> singles;
     std::size_t depth = 0;          ///< of a stack
     std::vector<TreeChild> waiting; ///< a stack for each ray, then for each group
-    std::vector<WaitingGroup> waiting_groups;
+    std::array<RayStream, streams_at_once> streams;
+    std::vector<TreeChild> stream_children;
+    std::vector<std::uint64_t> stream_waiting;
     std::vector<Doubtful> doubtful;
 };
 

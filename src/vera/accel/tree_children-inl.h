@@ -28,8 +28,19 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// Children of a node that a ray is tested against together.
 using Children = hn::CappedTag<float, tree_width>;
 
+#undef VERA_COMPRESS_CHILDREN
+#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+#define VERA_COMPRESS_CHILDREN 1
+#else
+#define VERA_COMPRESS_CHILDREN 0
+#endif
+
 template <typename D>
 HWY_INLINE std::uint32_t bits_of(D d, hn::Mask<D> mask) {
+#if VERA_COMPRESS_CHILDREN
+    if constexpr (sizeof(mask.raw) <= sizeof(std::uint16_t))
+        return static_cast<std::uint32_t>(mask.raw) & ((std::uint32_t{1} << hn::Lanes(d)) - 1);
+#endif
     std::uint8_t bytes[8] = {};
     hn::StoreMaskBits(d, mask, bytes);
     const std::uint32_t all = bytes[0] | std::uint32_t{bytes[1]} << 8U;
@@ -50,13 +61,6 @@ constexpr auto plane_places = [] {
         }
     return places;
 }();
-
-#undef VERA_COMPRESS_CHILDREN
-#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
-#define VERA_COMPRESS_CHILDREN 1
-#else
-#define VERA_COMPRESS_CHILDREN 0
-#endif
 
 /// Puts the children of the node onto a stack for which near, which is not negative, is not behind
 /// far, those to come to first in this order, or where that is cheaper, the nearest ones, on top;
