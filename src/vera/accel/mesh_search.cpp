@@ -147,36 +147,83 @@ HWY_INLINE std::size_t follow_to_any(const Search& search, std::span<const MeshR
     return groups;
 }
 
+/// What waits for one ray; the next one is on top.
+struct SingleStack {
+    TreeChild* children;
+    std::size_t size;
+
+    /// Takes the next one that is not behind the limit; false when there is none.
+    bool take(float limit, TreeChild& next) {
+        while (size > 0) {
+            next = children[--size];
+            if (next.near() <= limit)
+                return true;
+        }
+        return false;
+    }
+};
+
 /// Follows one ray of an octant down from the root; true when it is only asked whether it meets
 /// anything, and it does.
 template <bool any>
 HWY_INLINE bool follow_single(const Search& search, std::size_t octant, SingleRay& ray) {
     const MeshTree& tree = search.tree;
-    Walk walk;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        walk.inverse[axis] = ray.inverse[axis];
-        walk.near_offset[axis] = ray.near_offset[axis];
-        walk.far_offset[axis] = ray.far_offset[axis];
-    }
-    walk.places = plane_places[octant];
-    walk.order = static_cast<std::uint8_t>(any ? any_order : octant);
-    walk.size = 0;
-    walk.stack = stack_of(search, 0);
+    const Children d;
+    const auto all = [&](float number) HWY_ATTR { return hn::Set(d, number); };
+    const auto places = plane_places[octant];
+    const auto inverse_x = all(ray.inverse[0]);
+    const auto inverse_y = all(ray.inverse[1]);
+    const auto inverse_z = all(ray.inverse[2]);
+    const auto near_x = all(ray.near_offset[0]);
+    const auto near_y = all(ray.near_offset[1]);
+    const auto near_z = all(ray.near_offset[2]);
+    const auto far_x = all(ray.far_offset[0]);
+    const auto far_y = all(ray.far_offset[1]);
+    const auto far_z = all(ray.far_offset[2]);
+    SingleStack stack = {stack_of(search, 0), 0};
     TreeChild next = TreeChild::node(0);
     while (true) {
-        if (next.is_block() != 0) {
-            const float before = ray.limit;
-            if (visit_leaf<any>(search, next, ray))
-                return true;
-            if (ray.limit < before)
-                walk.size = drop_behind(walk.stack, walk.size, ray.limit);
-        } else {
+        while (next.is_block() == 0) {
             ++search.counts.nodes;
-            add_met_children(tree.nodes[next.first()], ray.limit, walk);
+            const WideNode& node = tree.nodes[next.first()];
+            const float* const planes = node.planes[0].data();
+            const auto plane = [&](std::size_t j, std::size_t i)
+                                   HWY_ATTR { return hn::Load(d, planes + places[j] + i); };
+            const auto near_at = [&](std::size_t i) HWY_ATTR {
+                return hn::Max(
+                    hn::Max(
+                        hn::MulAdd(plane(0, i), inverse_x, near_x),
+                        hn::MulAdd(plane(1, i), inverse_y, near_y)),
+                    hn::Max(hn::MulAdd(plane(2, i), inverse_z, near_z), hn::Zero(d)));
+            };
+            const auto far_at = [&](std::size_t i) HWY_ATTR {
+                return hn::Min(
+                    hn::Min(
+                        hn::MulAdd(plane(3, i), inverse_x, far_x),
+                        hn::MulAdd(plane(4, i), inverse_y, far_y)),
+                    hn::Min(hn::MulAdd(plane(5, i), inverse_z, far_z), all(ray.limit)));
+            };
+            if constexpr (any) {
+                // With a branch, which the processor follows before it knows, it has the memory of
+                // the next node under way. Where the order counts, it would be guessed wrongly too
+                // often.
+                std::uint32_t met = 0;
+                for (std::size_t i = 0; i < tree_width; i += hn::Lanes(d))
+                    met |= bits_of(d, hn::Le(near_at(i), far_at(i))) << i;
+                for (; met != 0; met ^= std::bit_floor(met))
+                    stack.children[stack.size++] = TreeChild::waiting(
+                        node.children[static_cast<std::size_t>(std::bit_width(met) - 1)], 0);
+            } else {
+                stack.size +=
+                    put_met_children(node, octant, near_at, far_at, stack.children + stack.size);
+            }
+            if (!stack.take(ray.limit, next))
+                return false;
         }
-        if (walk.size == 0)
+        if (visit_leaf<any>(search, next, ray))
+            return true;
+        if (!stack.take(ray.limit, next))
             return false;
-        next = walk.stack[--walk.size];
     }
 }
 
