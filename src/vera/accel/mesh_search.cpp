@@ -74,12 +74,9 @@ HWY_NOINLINE void go_on_as_stream(const Search& search, const BeamWalk& beam, Ga
             static_cast<std::uint16_t>(first + static_cast<std::size_t>(std::countr_zero(rest)));
     RayStream& stream =
         start_stream(search, gathered.streams++, {numbers.data(), count}, beam.order, false);
-    const auto wait = [&](const TreeChild& child) HWY_ATTR {
-        stream.children[stream.size] = child;
-        stream.waiting[stream.size++] = stream.left;
-    };
-    std::for_each(beam.stack, beam.stack + beam.size, wait);
-    wait(beam.next);
+    for (std::size_t i = 0; i < beam.size; ++i)
+        stream.stack.push(beam.stack[i], stream.left);
+    stream.stack.push(beam.next, stream.left);
 }
 
 /// Sets the rays that were gathered on their way, and follows all streams.
@@ -94,9 +91,7 @@ HWY_INLINE void follow_gathered(const Search& search, Gathered& gathered) {
                  std::min(stream_size, gathered.counts[octant] - i)},
                 octant,
                 any);
-            stream.children[0] = TreeChild::node(0);
-            stream.waiting[0] = stream.left;
-            stream.size = 1;
+            stream.stack.push(TreeChild::node(0), stream.left);
         }
     if (gathered.streams > 0)
         follow_streams<any>(search, gathered.streams);

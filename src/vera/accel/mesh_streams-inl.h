@@ -10,6 +10,7 @@
 #endif
 
 #include "vera/accel/mesh_singles-inl.h"
+#include "vera/accel/tree_streams-inl.h"
 
 #include <algorithm>
 #include <array>
@@ -25,10 +26,6 @@ HWY_BEFORE_NAMESPACE();
 namespace vera::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
-
-/// Rays of a stream, a bit for each.
-constexpr std::size_t stream_size = 64;
-using StreamMask = std::uint64_t;
 
 /// Bounds of where rays of one octant come to planes: along an axis, none comes to a plane earlier
 /// than the earlier of two lines in its place does, nor later than the later of two others.
@@ -53,9 +50,7 @@ struct RayStream {
     StreamMask left = 0;                ///< the rays whose search goes on
     std::array<std::uint8_t, 6> places; ///< see plane_places
     std::size_t order = 0;              ///< see put_met_children
-    std::uint32_t size = 0;             ///< of the stack
-    TreeChild* children = nullptr;      ///< what waits; the next one is on top
-    StreamMask* waiting = nullptr;      ///< the rays for which it does
+    StreamStack stack;
     /// How often bounds of all rays may fail to tell which children they meet, until they are not
     /// asked any more.
     int patience = 0;
@@ -169,101 +164,6 @@ bounded_children(const WideNode& node, const RayStream& stream) {
     return children;
 }
 
-#if VERA_COMPRESS_CHILDREN
-/// The rays that meet each of the children of a node.
-using ChildRays = __m512i;
-
-HWY_INLINE ChildRays all_for(std::uint32_t children, StreamMask rays) {
-    return _mm512_maskz_set1_epi64(static_cast<__mmask8>(children), static_cast<long long>(rays));
-}
-#else
-using ChildRays = std::array<StreamMask, tree_width>;
-
-HWY_INLINE ChildRays all_for(std::uint32_t children, StreamMask rays) {
-    ChildRays all = {};
-    for (; children != 0; children &= children - 1)
-        all[static_cast<std::size_t>(std::countr_zero(children))] = rays;
-    return all;
-}
-#endif
-
-/// Which of the rays meet the children of the node before their limits.
-HWY_INLINE ChildRays
-rays_of_children(const WideNode& node, StreamMask rays, const RayStream& stream) {
-    const Children d;
-    const float* const planes = node.planes[0].data();
-    const auto test = [&](std::size_t i, const auto& take) HWY_ATTR {
-        const auto first_x = hn::Load(d, planes + stream.places[0] + i);
-        const auto first_y = hn::Load(d, planes + stream.places[1] + i);
-        const auto first_z = hn::Load(d, planes + stream.places[2] + i);
-        const auto last_x = hn::Load(d, planes + stream.places[3] + i);
-        const auto last_y = hn::Load(d, planes + stream.places[4] + i);
-        const auto last_z = hn::Load(d, planes + stream.places[5] + i);
-        for (StreamMask rest = rays; rest != 0; rest &= rest - 1) {
-            const SingleRay& ray = *stream.rays[static_cast<std::size_t>(std::countr_zero(rest))];
-            const auto x = hn::Set(d, ray.inverse[0]);
-            const auto y = hn::Set(d, ray.inverse[1]);
-            const auto z = hn::Set(d, ray.inverse[2]);
-            const auto near = hn::Max(
-                hn::Max(
-                    hn::MulAdd(first_x, x, hn::Set(d, ray.near_offset[0])),
-                    hn::MulAdd(first_y, y, hn::Set(d, ray.near_offset[1]))),
-                hn::Max(hn::MulAdd(first_z, z, hn::Set(d, ray.near_offset[2])), hn::Zero(d)));
-            const auto far = hn::Min(
-                hn::Min(
-                    hn::MulAdd(last_x, x, hn::Set(d, ray.far_offset[0])),
-                    hn::MulAdd(last_y, y, hn::Set(d, ray.far_offset[1]))),
-                hn::Min(
-                    hn::MulAdd(last_z, z, hn::Set(d, ray.far_offset[2])), hn::Set(d, ray.limit)));
-            take(hn::Le(near, far), rest & -rest);
-        }
-    };
-#if VERA_COMPRESS_CHILDREN
-    ChildRays met_rays = _mm512_setzero_si512();
-    test(0, [&](hn::Mask<Children> met, StreamMask bit) HWY_ATTR {
-        met_rays = _mm512_mask_or_epi64(
-            met_rays,
-            static_cast<__mmask8>(met.raw),
-            met_rays,
-            _mm512_set1_epi64(static_cast<long long>(bit)));
-    });
-#else
-    ChildRays met_rays = {};
-    for (std::size_t i = 0; i < tree_width; i += hn::Lanes(d))
-        test(i, [&](hn::Mask<Children> met, StreamMask bit) HWY_ATTR {
-            for (std::uint32_t rest = bits_of(d, met); rest != 0; rest &= rest - 1)
-                met_rays[i + static_cast<std::size_t>(std::countr_zero(rest))] |= bit;
-        });
-#endif
-    return met_rays;
-}
-
-/// Lets the children of the node wait that rays meet, those to come to first on top. Whole
-/// registers are stored.
-HWY_INLINE void put_waiting(const WideNode& node, ChildRays met_rays, RayStream& stream) {
-#if VERA_COMPRESS_CHILDREN
-    const __m512i children = _mm512_load_si512(node.children.data());
-    const __m512i numbers = _mm512_srl_epi64(
-        children, _mm_cvtsi32_si128(static_cast<int>(TreeChild::order_shift_of(stream.order))));
-    const __m512i children_in_order = _mm512_permutexvar_epi64(numbers, children);
-    const __m512i rays_in_order = _mm512_permutexvar_epi64(numbers, met_rays);
-    const __mmask8 met = _mm512_test_epi64_mask(rays_in_order, rays_in_order);
-    _mm512_storeu_si512(
-        stream.children + stream.size, _mm512_maskz_compress_epi64(met, children_in_order));
-    _mm512_storeu_si512(
-        stream.waiting + stream.size, _mm512_maskz_compress_epi64(met, rays_in_order));
-    stream.size += static_cast<std::uint32_t>(std::popcount(std::uint32_t{met}));
-#else
-    for (std::size_t place = 0; place < tree_width; ++place) {
-        const std::size_t child = node.children[place].in_order(stream.order);
-        if (met_rays[child] == 0)
-            continue;
-        stream.children[stream.size] = node.children[child];
-        stream.waiting[stream.size++] = met_rays[child];
-    }
-#endif
-}
-
 /// Lets the children of the node wait that the rays meet before their limits.
 template <bool any>
 HWY_INLINE void put_met_children(const WideNode& node, StreamMask rays, RayStream& stream) {
@@ -271,12 +171,20 @@ HWY_INLINE void put_met_children(const WideNode& node, StreamMask rays, RayStrea
         if (HWY_UNLIKELY(stream.patience > 0) && std::popcount(rays) >= bounded_rays) {
             const BoundedChildren children = bounded_children(node, stream);
             if (children.may == children.sure) {
-                put_waiting(node, all_for(children.sure, rays), stream);
+                put_waiting(node, all_for(children.sure, rays), stream.order, stream.stack);
                 return;
             }
             --stream.patience;
         }
-    put_waiting(node, rays_of_children(node, rays, stream), stream);
+    const auto ray_at = [&](std::size_t i) {
+        const SingleRay& ray = *stream.rays[i];
+        return BoxedRay<1>{ray.inverse, ray.near_offset, ray.far_offset, ray.limit};
+    };
+    put_waiting(
+        node,
+        rays_of_children<1>(node, stream.places, rays, ray_at),
+        stream.order,
+        stream.stack);
 }
 
 } // namespace vera::detail::HWY_NAMESPACE

@@ -250,27 +250,14 @@ HWY_INLINE RayStream& start_stream(
     stream.left = ~StreamMask{0} >> (stream_size - rays.size());
     stream.places = plane_places[octant];
     stream.order = any ? any_order : octant;
-    stream.children = search.space.stream_children.data() + number * search.space.depth;
-    stream.waiting = search.space.stream_waiting.data() + number * search.space.depth;
-    stream.size = 0;
+    stream.stack = {
+        search.space.stream_children.data() + number * search.space.depth,
+        search.space.stream_waiting.data() + number * search.space.depth,
+        0};
     stream.patience = 0;
     if (any && run_alike(stream))
         bound_rays(octant, stream);
     return stream;
-}
-
-/// Moves the stream to the next child that waits for rays whose search goes on, and tells which
-/// those are: none where there is no such child.
-HWY_INLINE StreamMask take_waiting(RayStream& stream, TreeChild& child) {
-    while (stream.size > 0) {
-        --stream.size;
-        const StreamMask rays = stream.waiting[stream.size] & stream.left;
-        if (rays != 0) {
-            child = stream.children[stream.size];
-            return rays;
-        }
-    }
-    return 0;
 }
 
 /// Follows the streams, a step each in turn, so that what each needs next arrives while the others
@@ -284,7 +271,7 @@ HWY_NOINLINE void follow_streams(const Search& search, std::size_t count) {
             RayStream& stream =
                 search.space.streams[static_cast<std::size_t>(std::countr_zero(those))];
             TreeChild child;
-            const StreamMask rays = take_waiting(stream, child);
+            const StreamMask rays = stream.stack.take(stream.left, child);
             if (rays == 0) {
                 under_way &= ~(those & -those);
                 continue;
@@ -295,8 +282,8 @@ HWY_NOINLINE void follow_streams(const Search& search, std::size_t count) {
                 search.counts.nodes += static_cast<std::uint64_t>(std::popcount(rays));
                 put_met_children<any>(tree.nodes[child.first()], rays, stream);
             }
-            if (stream.size > 0)
-                fetch(tree, stream.children[stream.size - 1]);
+            if (stream.stack.size > 0)
+                fetch(tree, stream.stack.children[stream.stack.size - 1]);
         }
     }
     if constexpr (!any)

@@ -151,32 +151,6 @@ HWY_INLINE LaneMask meeting_child(
     return met & lanes;
 }
 
-/// So few rays of a packet go on alone from where they are.
-constexpr int few_lanes = 2;
-
-/// Leaves a child for each of the lanes' rays to visit alone later; false when too much waits for
-/// one of them.
-HWY_INLINE bool leave_for_later(
-    const PacketQuery& query,
-    Frame& frame,
-    const BoxRays& rays,
-    const WaitingTogether& left,
-    LaneMask& later,
-    Walks& walks) {
-    for (LaneMask rest = left.lanes & later; rest != 0; rest &= rest - 1)
-        if (walks[static_cast<std::size_t>(std::countr_zero(rest))].size == tree_width)
-            return false;
-    for (LaneMask rest = left.lanes; rest != 0; rest &= rest - 1) {
-        const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-        Walk& walk = walks[lane];
-        if ((later & bit_of(lane)) == 0)
-            start_walk(query, frame, rays, lane, walk);
-        walk.stack[walk.size++] = TreeChild::waiting(left.child, left.near);
-    }
-    later |= left.lanes;
-    return true;
-}
-
 /// Lets the children of the node wait that the lanes' rays meet, the nearest on top. Returns how
 /// many.
 HWY_INLINE std::size_t put_children(
@@ -215,17 +189,31 @@ HWY_INLINE LaneMask reaching(const Frame& frame, float near) {
     return lanes;
 }
 
-/// Follows a packet of rays of one octant down from the root. Where few of them are left, each is
-/// left to go on alone later; returns those.
-LaneMask search_together(
-    PacketQuery& query, Frame& frame, const BoxRays& rays, LaneMask lanes, Walks& walks) {
+/// So few rays of a packet go on as a stream from where they are.
+constexpr int few_lanes = 2;
+
+/// Follows a packet of rays of one octant down from the root. Where few of them are left, what
+/// waits for them is left to the streams.
+void search_together(
+    PacketQuery& query,
+    Frame& frame,
+    const BoxRays& rays,
+    LaneMask lanes,
+    std::size_t octant,
+    OctantStreams& streams) {
     const GeometryTree& tree = tree_of(frame);
-    const std::size_t octant = octant_of(rays, static_cast<std::size_t>(std::countr_zero(lanes)));
     Beam beam = beam_of(frame, octant, lanes);
     float limit = largest_limit(frame, lanes);
     WaitingTogether* const stack = frame.waiting_together.data();
     std::size_t size = 0;
-    LaneMask later = 0;
+    std::size_t turn = 0;
+    const auto leave = [&](const WaitingTogether& left) {
+        StreamStack& later = streams.all[turn++ % octant_count].stack;
+        if (later.size == tree_width)
+            return false;
+        later.push(left.child, left.lanes);
+        return true;
+    };
     WaitingTogether next = {TreeChild::node(0), lanes, 0};
     while (true) {
         if (next.child.is_block() != 0) {
@@ -233,13 +221,11 @@ LaneMask search_together(
             if ((lanes & ~query.active) != 0) {
                 lanes &= query.active;
                 if (lanes == 0)
-                    return 0;
+                    break;
                 beam = beam_of(frame, octant, lanes);
             }
             limit = largest_limit(frame, lanes);
-        } else if (
-            std::popcount(next.lanes) > few_lanes
-            || !leave_for_later(query, frame, rays, next, later, walks)) {
+        } else if (std::popcount(next.lanes) > few_lanes || !leave(next)) {
             query.counts.cells += static_cast<std::uint64_t>(std::popcount(next.lanes));
             const std::size_t count = put_children(
                 tree,
@@ -258,12 +244,28 @@ LaneMask search_together(
             }
         }
         do {
-            if (size == 0)
-                return later & lanes;
+            if (size == 0) {
+                lanes = 0;
+                break;
+            }
             next = stack[--size];
             next.lanes &= lanes & reaching(frame, next.near);
         } while (next.lanes == 0);
+        if (lanes == 0)
+            break;
     }
+    for (OctantStream& stream : streams.all) {
+        // The first that was left is to be the next.
+        std::reverse(stream.stack.children, stream.stack.children + stream.stack.size);
+        std::reverse(stream.stack.rays, stream.stack.rays + stream.stack.size);
+    }
+}
+
+/// The lanes of the octant.
+HWY_INLINE LaneMask lanes_of(const BoxRays& rays, std::size_t octant, LaneMask lanes) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        lanes &= (octant >> axis & 1U) != 0 ? rays.backward[axis] : ~rays.backward[axis];
+    return lanes;
 }
 
 void search_tree(PacketQuery& query, Frame& frame, LaneMask lanes) {
@@ -271,30 +273,32 @@ void search_tree(PacketQuery& query, Frame& frame, LaneMask lanes) {
     frame.candidates.count = 0;
     const std::size_t depth = waiting_depth(tree_of(frame).levels);
     if (frame.waiting_together.size() < depth) {
-        frame.waiting.resize(packet_size * depth);
+        frame.waiting.resize(octant_count * depth);
+        frame.waiting_lanes.resize(octant_count * depth);
         frame.waiting_together.resize(depth);
     }
     BoxRays rays;
     fill_box_rays(frame, rays);
-    Walks walks;
-    LaneMask apart = lanes;
+    OctantStreams streams;
+    for (std::size_t i = 0; i < octant_count; ++i)
+        streams.all[i].stack = {
+            frame.waiting.data() + i * depth, frame.waiting_lanes.data() + i * depth, 0};
     if (std::popcount(lanes) > few_lanes && one_octant(rays, lanes)) {
-        apart = search_together(query, frame, rays, lanes, walks);
-        for (LaneMask rest = apart; rest != 0; rest &= rest - 1) {
-            const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-            Walk& walk = walks[lane];
-            walk.size = drop_behind(walk.stack, walk.size, frame.limit[lane]);
-            // The first that was left is to be the next.
-            std::reverse(walk.stack, walk.stack + walk.size);
-        }
+        const std::size_t octant =
+            octant_of(rays, static_cast<std::size_t>(std::countr_zero(lanes)));
+        for (OctantStream& stream : streams.all)
+            stream.octant = octant;
+        streams.count = octant_count;
+        search_together(query, frame, rays, lanes, octant, streams);
     } else {
-        for (LaneMask rest = lanes; rest != 0; rest &= rest - 1) {
-            const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-            start_walk(query, frame, rays, lane, walks[lane]);
-            walks[lane].stack[walks[lane].size++] = TreeChild::node(0);
-        }
+        for (std::size_t octant = 0; octant < octant_count; ++octant)
+            if (const LaneMask of_octant = lanes_of(rays, octant, lanes); of_octant != 0) {
+                OctantStream& stream = streams.all[streams.count++];
+                stream.octant = octant;
+                stream.stack.push(TreeChild::node(0), of_octant);
+            }
     }
-    search_apart(query, frame, walks, apart);
+    search_streams(query, frame, rays, streams);
     if (frame.depth > 0)
         return decide(query, frame, lanes);
     // What the main scene's candidates are arrives while the next packet is searched.

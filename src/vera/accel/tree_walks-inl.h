@@ -12,6 +12,7 @@
 #include "vera/accel/packet_query.h"
 #include "vera/accel/tree_blocks-inl.h"
 #include "vera/accel/tree_lanes-inl.h"
+#include "vera/accel/tree_streams-inl.h"
 #include "vera/accel/tree_structures.h"
 
 #include <array>
@@ -26,63 +27,79 @@ namespace vera::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Walks = std::array<Walk, packet_size>;
+/// A packet's rays of one octant on their way.
+struct OctantStream {
+    std::size_t octant = 0;
+    StreamStack stack;
+};
 
-/// Sets a lane's ray on its way, with nothing waiting.
-HWY_INLINE void start_walk(
-    const PacketQuery& query, Frame& frame, const BoxRays& rays, std::size_t lane, Walk& walk) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        walk.inverse[axis] = rays.inverse[axis][lane];
-        walk.near_offset[axis] = rays.near_offset[axis][lane];
-        walk.far_offset[axis] = rays.far_offset[axis][lane];
-    }
-    const std::size_t octant = octant_of(rays, lane);
-    walk.places = plane_places[octant];
-    walk.order = static_cast<std::uint8_t>(order_of(query, octant));
-    walk.size = 0;
-    walk.stack = frame.waiting.data() + lane * waiting_depth(tree_of(frame).levels);
+/// What waits for the packet's rays, octant by octant.
+struct OctantStreams {
+    std::array<OctantStream, octant_count> all;
+    std::size_t count = 0;
+};
+
+/// So few rays are tested against a block's elements one by one.
+constexpr int few_at_block = 2;
+
+/// Lets the children of the node wait that the rays, which are all of the octant, meet before their
+/// limits.
+HWY_INLINE void put_met_children(
+    const PacketQuery& query,
+    const Frame& frame,
+    const BoxRays& rays,
+    const WideNode& node,
+    std::size_t octant,
+    LaneMask lanes,
+    StreamStack& stack) {
+    const auto ray_at = [&](std::size_t lane) {
+        return BoxedRay<packet_size>{
+            rays.inverse[0].data() + lane,
+            rays.near_offset[0].data() + lane,
+            rays.far_offset[0].data() + lane,
+            frame.limit[lane]};
+    };
+    put_waiting(
+        node,
+        rays_of_children<packet_size>(node, plane_places[octant], lanes, ray_at),
+        order_of(query, octant),
+        stack);
 }
 
-/// Follows each of the lanes' rays down from what waits for it, by itself. The rays take steps in
-/// turn, so that what each needs next arrives while the others work.
-inline void search_apart(PacketQuery& query, Frame& frame, Walks& walks, LaneMask lanes) {
+/// Follows the streams, a step each in turn, so that what each needs next arrives while the others
+/// work.
+inline void search_streams(
+    PacketQuery& query, Frame& frame, const BoxRays& rays, OctantStreams& streams) {
     const GeometryTree& tree = tree_of(frame);
-    LaneMask at_node = 0;
-    LaneMask at_block = 0;
-    const auto go_on = [&](std::size_t lane) HWY_ATTR {
-        fetch(tree, walks[lane].next);
-        const auto is_block = static_cast<LaneMask>(walks[lane].next.is_block());
-        at_block |= is_block << lane;
-        at_node |= (1 - is_block) << lane;
-    };
-    for (LaneMask rest = lanes; rest != 0; rest &= rest - 1) {
-        const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-        if (take_waiting(walks[lane]))
-            go_on(lane);
-    }
-    while ((at_node | at_block) != 0) {
-        LaneMask rest = at_node;
-        at_node = 0;
-        query.counts.cells += static_cast<std::uint64_t>(std::popcount(rest));
-        for (; rest != 0; rest &= rest - 1) {
-            const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-            Walk& walk = walks[lane];
-            add_met_children(tree.nodes[walk.next.first()], frame.limit[lane], walk);
-            if (take_waiting(walk))
-                go_on(lane);
-        }
-        rest = at_block;
-        at_block = 0;
-        for (; rest != 0; rest &= rest - 1) {
-            const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-            Walk& walk = walks[lane];
-            const float before = frame.limit[lane];
-            visit_block_alone(query, frame, walk.next, lane);
-            const float limit = frame.limit[lane];
-            if (limit < before)
-                walk.size = limit < 0 ? 0 : drop_behind(walk.stack, walk.size, limit);
-            if (take_waiting(walk))
-                go_on(lane);
+    std::uint32_t under_way = (std::uint32_t{1} << streams.count) - 1;
+    while (under_way != 0) {
+        for (std::uint32_t those = under_way; those != 0; those &= those - 1) {
+            OctantStream& stream = streams.all[static_cast<std::size_t>(std::countr_zero(those))];
+            TreeChild child;
+            const auto lanes = static_cast<LaneMask>(stream.stack.take(query.active, child));
+            if (lanes == 0) {
+                under_way &= ~(those & -those);
+                continue;
+            }
+            if (child.is_block() == 0) {
+                query.counts.cells += static_cast<std::uint64_t>(std::popcount(lanes));
+                put_met_children(
+                    query,
+                    frame,
+                    rays,
+                    tree.nodes[child.first()],
+                    stream.octant,
+                    lanes,
+                    stream.stack);
+            } else if (std::popcount(lanes) > few_at_block) {
+                visit_block(query, frame, child, lanes);
+            } else {
+                for (LaneMask rest = lanes; rest != 0; rest &= rest - 1)
+                    visit_block_alone(
+                        query, frame, child, static_cast<std::size_t>(std::countr_zero(rest)));
+            }
+            if (stream.stack.size > 0)
+                fetch(tree, stream.stack.children[stream.stack.size - 1]);
         }
     }
 }
