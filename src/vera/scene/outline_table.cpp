@@ -2,6 +2,7 @@
 #include "vera/scene/outline_table.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace vera {
@@ -98,6 +99,100 @@ void append_strips(OutlineTable& table, OutlineStrips& outline, std::span<const 
         });
 }
 
+/// The same as strip_at(), along the strips.
+std::uint32_t cell_at(const OutlineStrips& outline, double u) {
+    const double place = (u - outline.bounds.lower.*outline.u_axis) * outline.cells_per_unit;
+    return static_cast<std::uint32_t>(std::clamp(place, 0.0, double{StripCells::count - 1}));
+}
+
+/// The cells from the first to the last.
+std::uint64_t cells_between(std::uint32_t first, std::uint32_t last) {
+    return (~std::uint64_t{0} >> (StripCells::count - 1 - last)) & (~std::uint64_t{0} << first);
+}
+
+/// The cells that the side from a to b may touch between two places across the strips.
+std::uint64_t
+touched_cells(const OutlineStrips& outline, const Vec3& a, const Vec3& b, double from, double to) {
+    const double a_u = a.*outline.u_axis;
+    const double a_v = a.*outline.v_axis;
+    const double along = b.*outline.u_axis - a_u;
+    const double rise = b.*outline.v_axis - a_v;
+    double ends[2] = {a_u, a_u + along};
+    if (rise != 0) {
+        const double parts[2] = {
+            std::clamp((from - a_v) / rise, 0.0, 1.0), std::clamp((to - a_v) / rise, 0.0, 1.0)};
+        for (std::size_t i = 0; i < 2; ++i)
+            ends[i] = a_u + parts[i] * along;
+    }
+    // One more on either side for what is rounded: see set_cells().
+    const std::uint32_t first = cell_at(outline, std::min(ends[0], ends[1]));
+    const std::uint32_t last = cell_at(outline, std::max(ends[0], ends[1]));
+    return cells_between(
+        std::max(first, std::uint32_t{1}) - 1, std::min(last + 1, StripCells::count - 1));
+}
+
+/// How often the outline turns about a place that no side of the strip comes near.
+int turns_about(
+    const OutlineStrips& outline,
+    std::span<const Vec3> corners,
+    std::span<const std::uint32_t> sides,
+    double u,
+    double v) {
+    int turns = 0;
+    for (const std::uint32_t side : sides) {
+        const Vec3& a = corners[side];
+        const Vec3& b = corners[side + 1 == corners.size() ? 0 : side + 1];
+        const bool starts_below = a.*outline.v_axis <= v;
+        if (starts_below == (b.*outline.v_axis <= v))
+            continue;
+        const double part = (v - a.*outline.v_axis) / (b.*outline.v_axis - a.*outline.v_axis);
+        if (a.*outline.u_axis + part * (b.*outline.u_axis - a.*outline.u_axis) > u)
+            turns += starts_below ? 1 : -1;
+    }
+    return turns;
+}
+
+/// Finds out which cells the sides leave untouched, and which of those are inside.
+void set_cells(OutlineTable& table, OutlineStrips& outline, std::span<const Vec3> corners) {
+    table.cells.resize(table.starts.size());
+    const double lower_u = outline.bounds.lower.*outline.u_axis;
+    const double lower_v = outline.bounds.lower.*outline.v_axis;
+    const double width = outline.bounds.upper.*outline.u_axis - lower_u;
+    const double height = outline.bounds.upper.*outline.v_axis - lower_v;
+    // Where cells are far larger than what is rounded, it moves nothing by more than a cell.
+    constexpr double least_part = 0x1p-20;
+    if (outline.strip_count == 1 || !(std::min(width, height) > least_part * outline.size))
+        return;
+    outline.cells_per_unit = StripCells::count / width;
+    const double strip_height = height / outline.strip_count;
+    const std::uint32_t* const starts = table.starts.data() + outline.first_strip;
+    for (std::uint32_t strip = 0; strip < outline.strip_count; ++strip) {
+        const std::span<const std::uint32_t> sides = {
+            table.sides.data() + starts[strip], table.sides.data() + starts[strip + 1]};
+        const double middle = lower_v + (strip + 0.5) * strip_height;
+        std::uint64_t touched = 0;
+        for (const std::uint32_t side : sides)
+            touched |= touched_cells(
+                outline,
+                corners[side],
+                corners[side + 1 == corners.size() ? 0 : side + 1],
+                middle - 0.51 * strip_height,
+                middle + 0.51 * strip_height);
+        StripCells& cells = table.cells[outline.first_strip + strip];
+        cells.known = ~touched;
+        // Between two that are touched all are alike.
+        for (std::uint64_t rest = cells.known; rest != 0;) {
+            const auto first = static_cast<std::uint32_t>(std::countr_zero(rest));
+            const auto length = static_cast<std::uint32_t>(std::countr_one(rest >> first));
+            const std::uint64_t run = cells_between(first, first + length - 1);
+            const double u = lower_u + (first + 0.5) / outline.cells_per_unit;
+            if (turns_about(outline, corners, sides, u, middle) != 0)
+                cells.inside |= run;
+            rest &= ~run;
+        }
+    }
+}
+
 void add_outline(OutlineTable& table, std::size_t polygon, std::span<const Vec3> corners, Vec3 n) {
     const Vec3 normal_size = abs(n);
     const bool usable = std::all_of(
@@ -125,6 +220,7 @@ void add_outline(OutlineTable& table, std::size_t polygon, std::span<const Vec3>
     }
     choose_strips(outline, corners);
     append_strips(table, outline, corners);
+    set_cells(table, outline, corners);
     table.outlines.push_back(outline);
     table.numbers[polygon] = static_cast<std::uint32_t>(table.outlines.size());
 }
@@ -178,17 +274,19 @@ OutlineTable outline_table(const Geometry& geometry) {
 
 std::size_t memory(const OutlineTable& table) {
     return table.outlines.size() * sizeof(OutlineStrips)
-        + (table.numbers.size() + table.starts.size() + table.sides.size()) * sizeof(std::uint32_t);
+        + (table.numbers.size() + table.starts.size() + table.sides.size()) * sizeof(std::uint32_t)
+        + table.cells.size() * sizeof(StripCells);
 }
 
 std::size_t most_memory_of_outline_table(const Geometry& geometry) {
     // As many strips as corners, and one start more.
-    constexpr std::size_t by_corner = (1 + most_listings) * sizeof(std::uint32_t);
+    constexpr std::size_t by_corner =
+        (1 + most_listings) * sizeof(std::uint32_t) + sizeof(StripCells);
     std::size_t bytes = 0;
     for (const Polygon& polygon : geometry.polygons)
         if (has_outline(polygon))
             bytes +=
-                sizeof(OutlineStrips) + sizeof(std::uint32_t) + by_corner * polygon.corner_count;
+                sizeof(OutlineStrips) + by_corner * (polygon.corner_count + std::size_t{1});
     return bytes == 0 ? 0 : bytes + geometry.polygons.size() * sizeof(std::uint32_t);
 }
 
@@ -209,7 +307,8 @@ std::size_t most_memory_of_outline_table(const Geometry& geometry) {
 // a corner moves along u by 16 e s and by (deviation + 32 e s) |direction.u / speed| at most; the
 // place by a bit less, as it is rounded by itself, when s includes its distance from the origin. No
 // side then passes over the place while it moves, and the outline turns about it as often as
-// before, as long as it does not come nearer than these together. The margins are larger than
+// before, as long as it does not come nearer than these together: nor does it where the place with
+// its margins lies in a cell that no side touches. The margins are larger than
 // that by half, for their own rounding and that of determinants.
 InclusionStatus inclusion_status(
     const OutlineTable& table,
@@ -244,6 +343,12 @@ InclusionStatus inclusion_status(
     const std::uint32_t strip = strip_at(outline, place.v - place.v_margin);
     if (strip_at(outline, place.v + place.v_margin) != strip)
         return InclusionStatus::uncertain;
+    const std::uint32_t cell = cell_at(outline, place.u - place.u_margin);
+    const StripCells& cells = table.cells[outline.first_strip + strip];
+    if ((cells.known >> cell & 1U) != 0
+        && cell_at(outline, place.u + place.u_margin) == cell)
+        return (cells.inside >> cell & 1U) != 0 ? InclusionStatus::inside
+                                                : InclusionStatus::outside;
 
     const std::uint32_t* starts = table.starts.data() + outline.first_strip + strip;
     int turns = 0; // of the outline about the place

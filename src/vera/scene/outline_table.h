@@ -21,8 +21,17 @@ struct OutlineStrips {
     double Vec3::*u_axis = &Vec3::x; ///< along the strips
     double Vec3::*v_axis = &Vec3::y; ///< across them
     double strips_per_unit = 0;
+    double cells_per_unit = 0;
     std::uint32_t strip_count = 0;
-    std::size_t first_strip = 0; ///< in OutlineTable::starts
+    std::size_t first_strip = 0; ///< in OutlineTable::starts and cells
+};
+
+/// A strip, cut across into cells of equal width, a bit for each.
+struct StripCells {
+    static constexpr std::uint32_t count = 64;
+
+    std::uint64_t known = 0;  ///< no side of the polygon touches the cell
+    std::uint64_t inside = 0; ///< of those that are known: the polygon covers it
 };
 
 /// The outlines of a geometry's polygons of many corners. Takes memory in proportion to the
@@ -32,6 +41,7 @@ struct OutlineTable {
     std::vector<OutlineStrips> outlines;
     std::vector<std::uint32_t> starts; ///< strip i has the sides [starts[i]] to [starts[i + 1]]
     std::vector<std::uint32_t> sides;  ///< by the number, within its polygon, of their first corner
+    std::vector<StripCells> cells;     ///< of strip i
 
     /// Nothing for a polygon that has none: few corners are gone through as quickly.
     const OutlineStrips* of_polygon(std::size_t polygon) const {
