@@ -349,6 +349,21 @@ def peers_table(results):
     return table(head, rows) if rows else None
 
 
+def tachyon_table(results):
+    rows = []
+    for row in results.peers.get("tachyon", []) if results.peers else []:
+        rows.append([f"{row['scene']}, {row['side']}", *(
+            cell(value, digits) for value, digits in (
+                (row["vera"]["trace"], 3), (row["tachyon"]["trace"], 3), (row["trace_ratio"], 2),
+                (row["vera"]["cpu"], 3), (row["tachyon"]["cpu"], 3), (row["cpu_ratio"], 2)))])
+    if not rows:
+        return None
+    means = [cell(mean([row[name] for row in results.peers["tachyon"]]), 2) for name in ("trace_ratio", "cpu_ratio")]
+    rows.append(["geometric mean", "", "", means[0], "", "", means[1]])
+    head = ["picture", "trace seconds", "Tachyon", "ratio", "CPU seconds", "Tachyon", "ratio"]
+    return table(head, rows)
+
+
 def billion_table(results):
     if not results.billion:
         return None
@@ -359,7 +374,8 @@ def billion_table(results):
 
 
 TABLES = {"machine": machine_table, "means": means_table, "rates": rates_table, "one ray": one_ray_table,
-          "builds": builds_table, "exponents": exponents_table, "peers": peers_table, "billion": billion_table}
+          "builds": builds_table, "exponents": exponents_table, "peers": peers_table, "tachyon": tachyon_table,
+          "billion": billion_table}
 
 MACHINE = re.compile(r"<!-- machine: (\S+) -->")
 TITLE = re.compile(r"<title>(.*?)</title>")

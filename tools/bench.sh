@@ -4,7 +4,7 @@
 bench_usage() {
     cat <<'TEXT'
 ./dev bench              all of these, in this order; some hours on a quiet machine
-./dev bench peers ...    whole pictures, against POV-Ray
+./dev bench peers ...    whole pictures, against POV-Ray and Tachyon
 ./dev bench rays ...     builds and rays a second, against Embree
 ./dev bench growth ...   how times and counted steps grow with the number of triangles
 ./dev bench billion ...  a scene of a billion triangles in less than a gigabyte
@@ -19,7 +19,7 @@ TEXT
 bench_peers() {
     # shellcheck disable=SC2046 # one option or none
     step "build" build release $(without_tests) -- vera
-    step "compare with POV-Ray" bench/peers "$@"
+    step "compare with POV-Ray and Tachyon" bench/peers "$@"
 }
 
 # Builds a program of the benchmarks.
