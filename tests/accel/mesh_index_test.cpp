@@ -34,6 +34,7 @@ using testing::mixed_sizes;
 using testing::random_mesh;
 using testing::random_mesh_rays;
 using testing::rays_cut_at;
+using testing::rays_of_lights;
 using testing::rough_sphere;
 using testing::SampleMesh;
 using testing::scaled_and_shifted;
@@ -125,7 +126,7 @@ void expect_answers(
     const std::vector<MeshAnswer>& expected,
     const std::string& what) {
     expect_answers_one_by_one(index, rays, expected, what);
-    for (const std::size_t span_size : {1U, 15U, 16U, 17U, 31U, 33U, 1000U}) {
+    for (const std::size_t span_size : {1U, 15U, 16U, 17U, 33U, 257U, 1000U}) {
         if (::testing::Test::HasFailure())
             return;
         expect_answers_by_spans(index, rays, expected, span_size, what);
@@ -136,6 +137,8 @@ void expect_answers(
 std::vector<MeshRay> rays_of_all_sorts(const SampleMesh& mesh, std::uint64_t seed) {
     std::vector<MeshRay> rays = random_mesh_rays(seed, mesh, 400);
     for (const MeshRay& ray : coherent_mesh_rays(seed, mesh, 400))
+        rays.push_back(ray);
+    for (const MeshRay& ray : rays_of_lights(seed, mesh, 400))
         rays.push_back(ray);
     const std::size_t uncut = rays.size();
     for (std::size_t i = 0; i < uncut; i += 7) {

@@ -349,6 +349,29 @@ coherent_mesh_rays(std::uint64_t seed, const SampleMesh& mesh, std::size_t count
     return rays;
 }
 
+std::vector<MeshRay>
+rays_of_lights(std::uint64_t seed, const SampleMesh& mesh, std::size_t count) {
+    constexpr std::size_t rays_of_light = 96;
+    Dice dice(seed);
+    std::vector<MeshRay> rays;
+    while (rays.size() < count) {
+        const MeshPoint light = dice.any_of({1, 1, 3, 1000}) * place_by(dice, mesh);
+        const MeshPoint direction = direction_by(dice, mesh, light);
+        const bool to_place = dice.one_in(2);
+        const float spread = dice.any_of({0, 0, 0x1p-20F, 0.01F, 0.1F});
+        const float t_max = dice.any_of({1, 1, 0.5F, infinity});
+        for (std::size_t i = 0; i < rays_of_light; ++i) {
+            MeshRay ray;
+            ray.origin = place_by(dice, mesh);
+            ray.direction = (to_place ? light - ray.origin : direction)
+                + spread * direction_by(dice, mesh, ray.origin);
+            ray.t_max = t_max;
+            rays.push_back(ray);
+        }
+    }
+    return rays;
+}
+
 std::vector<MeshRay> rays_cut_at(const MeshRay& ray, float t) {
     const float before = std::nextafter(t, -infinity);
     const float behind = std::nextafter(t, infinity);

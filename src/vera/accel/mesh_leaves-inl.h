@@ -105,22 +105,18 @@ struct Sides {
     V product; ///< |e| |f|
 };
 
-/// Of triangles of which row(j) are the numbers in row j of their leaves.
-template <typename D, typename Row>
-HWY_INLINE Sides<hn::Vec<D>> sides_of(D, const Row& row) {
+/// Of triangles number i on of a leaf.
+template <typename D>
+HWY_INLINE Sides<hn::Vec<D>> sides_at(D d, const float* rows, std::size_t size, std::size_t i) {
     using V = hn::Vec<D>;
+    const auto row =
+        [&](std::size_t j) HWY_ATTR { return hn::LoadU(d, rows + j * size + i); };
     const Vector<V> a = {row(0), row(1), row(2)};
     const Vector<V> e = difference<V>({row(3), row(4), row(5)}, a);
     const Vector<V> f = difference<V>({row(6), row(7), row(8)}, a);
     const V e_size = sum_of(absolute(e));
     const V f_size = sum_of(absolute(f));
     return {a, e, f, cross_product(e, f), hn::Add(e_size, f_size), hn::Mul(e_size, f_size)};
-}
-
-/// Of triangles number i on of a leaf.
-template <typename D>
-HWY_INLINE Sides<hn::Vec<D>> sides_at(D d, const float* rows, std::size_t size, std::size_t i) {
-    return sides_of(d, [&](std::size_t j) HWY_ATTR { return hn::LoadU(d, rows + j * size + i); });
 }
 
 /// How rays pass triangles, each a volume of the ray's direction and two others: u, v and w have

@@ -73,12 +73,13 @@ inline std::uint32_t place_in_leaf(std::size_t size, std::size_t i) {
 }
 
 HWY_INLINE hn::Mask<Rays> in_group(Rays d, GroupMask set, std::size_t first) {
-#if VERA_COMPRESS_CHILDREN
+#if VERA_AVX512
     return {static_cast<__mmask16>(set >> first)};
-#endif
+#else
     const std::uint8_t bytes[8] = {
         static_cast<std::uint8_t>(set >> first), static_cast<std::uint8_t>(set >> first >> 8U)};
     return hn::LoadMaskBits(d, bytes);
+#endif
 }
 
 /// Rays that go to more than so many times the mesh's size away from it are followed in double

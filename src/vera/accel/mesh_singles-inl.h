@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays that go through the tree of a mesh alone: see mesh_search.cpp. Compiled once for each
-// instruction set.
+// Rays that are tested by themselves on their way through the tree of a mesh: see mesh_search.cpp.
+// Compiled once for each instruction set.
 
 #if defined(VERA_ACCEL_MESH_SINGLES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef VERA_ACCEL_MESH_SINGLES_INL_H
@@ -17,7 +17,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 
 #include <hwy/highway.h>
@@ -28,7 +27,7 @@ namespace vera::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// A ray that is tested against boxes and triangles by itself. See Walk and RayGroup.
+/// A ray that is tested against boxes and triangles by itself. See BoxedRay and RayGroup.
 struct alignas(64) SingleRay {
     // What boxes need, and most of what triangles need, side by side.
     float inverse[3];
@@ -50,8 +49,8 @@ struct alignas(64) SingleRay {
 
 /// The rays of the group, of which those that are not followed may be anything.
 HWY_INLINE void write_singles(RayGroup& group, SingleRay* rays) {
+    static_assert(offsetof(SingleRay, inverse) == 0);
     static_assert(offsetof(SingleRay, direction) == 13 * sizeof(float));
-    static_assert(offsetof(SingleRay, place) == 19 * sizeof(float));
     const Rays d;
     GroupRow<float> near_offset[3];
     GroupRow<float> far_offset[3];
@@ -70,12 +69,7 @@ HWY_INLINE void write_singles(RayGroup& group, SingleRay* rays) {
                 d,
                 far_offset[axis].data() + i);
         }
-    // As bits of floats.
-    GroupRow<float> leaf;
-    GroupRow<float> place;
-    std::memcpy(leaf.data(), group.leaf.data(), sizeof(leaf));
-    std::memcpy(place.data(), group.place.data(), sizeof(place));
-    const std::array<const float*, 20> rows = {
+    const std::array<const float*, 16> rows = {
         group.inverse[0].data(),
         group.inverse[1].data(),
         group.inverse[2].data(),
@@ -91,11 +85,7 @@ HWY_INLINE void write_singles(RayGroup& group, SingleRay* rays) {
         group.origin[2].data(),
         group.direction[0].data(),
         group.direction[1].data(),
-        group.direction[2].data(),
-        group.t_min.data(),
-        group.near.data(),
-        leaf.data(),
-        place.data()};
+        group.direction[2].data()};
     for (std::size_t lane = 0; lane < group_size; lane += 4)
         for (std::size_t row = 0; row < rows.size(); row += 4) {
             const auto place_in = [&](std::size_t i) HWY_ATTR {
@@ -109,10 +99,14 @@ HWY_INLINE void write_singles(RayGroup& group, SingleRay* rays) {
                 {place_in(0), place_in(1), place_in(2), place_in(3)});
         }
     for (std::size_t lane = 0; lane < group_size; ++lane) {
+        rays[lane].t_min = group.t_min[lane];
+        rays[lane].near = group.near[lane];
+        rays[lane].leaf = group.leaf[lane];
+        rays[lane].place = group.place[lane];
         rays[lane].direction_size = group.direction_size;
         rays[lane].lane = static_cast<std::uint32_t>(lane);
         rays[lane].group = &group;
-        rays[lane].given = group.rays.data() + lane;
+        rays[lane].given = &group.rays[std::min(lane, group.rays.size() - 1)];
     }
 }
 

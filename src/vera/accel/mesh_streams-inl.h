@@ -49,7 +49,7 @@ struct RayStream {
     std::size_t count = 0;              ///< of the rays
     StreamMask left = 0;                ///< the rays whose search goes on
     std::array<std::uint8_t, 6> places; ///< see plane_places
-    std::size_t order = 0;              ///< see put_met_children
+    std::size_t order = 0;              ///< see put_waiting
     StreamStack stack;
     /// How often bounds of all rays may fail to tell which children they meet, until they are not
     /// asked any more.
@@ -84,7 +84,7 @@ HWY_NOINLINE inline void bound_rays(std::size_t octant, RayStream& stream) {
     alignas(64) float most[bounded];
     for (std::size_t i = 0; i < bounded; i += hn::Lanes(d)) {
         const auto numbers = [&](std::size_t ray)
-                                 HWY_ATTR { return hn::Load(d, stream.rays[ray]->inverse + i); };
+                                 HWY_ATTR { return hn::Load(d, reinterpret_cast<const float*>(stream.rays[ray]) + i); };
         auto low = numbers(0);
         auto high = low;
         for (std::size_t ray = 1; ray < stream.count; ++ray) {

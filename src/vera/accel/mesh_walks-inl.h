@@ -188,11 +188,11 @@ visit_leaf(const Search& search, const TreeChild& leaf, StreamMask rays, RayStre
     }
 }
 
-template <typename Walker>
-HWY_INLINE bool move_on(Walker& walker) {
-    if (walker.size == 0)
+/// Moves the beam to the next child that waits for it; false when there is none.
+HWY_INLINE bool take_waiting(BeamWalk& beam) {
+    if (beam.size == 0)
         return false;
-    walker.next = walker.stack[--walker.size];
+    beam.next = beam.stack[--beam.size];
     return true;
 }
 
@@ -227,7 +227,7 @@ HWY_NOINLINE inline std::uint32_t follow_beams(const Search& search, std::size_t
                 ++search.counts.nodes;
                 add_met_children(tree.nodes[beam.next.first()], beam);
             }
-            if (move_on(beam))
+            if (take_waiting(beam))
                 fetch(tree, beam.next);
             else
                 under_way &= ~(std::uint32_t{1} << number);

@@ -57,7 +57,7 @@ struct Workspace {
     std::array<BeamWalk, beams_at_once> beams;
     std::array<SingleRay, rays_at_once> singles;
     std::size_t depth = 0;          ///< of a stack
-    std::vector<TreeChild> waiting; ///< a stack for each ray, then for each group
+    std::vector<TreeChild> waiting; ///< a stack for each beam; the first is that of one ray as well
     std::array<RayStream, streams_at_once> streams;
     std::vector<TreeChild> stream_children;
     std::vector<std::uint64_t> stream_waiting;

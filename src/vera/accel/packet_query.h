@@ -108,7 +108,7 @@ struct alignas(64) Frame {
     std::array<PreparedRay, packet_size> prepared;
     PreparedRows prepared_rows;
     Candidates candidates;
-    // What waits in a tree of boxes for rays of an octant, and for the packet.
+    // What waits in a tree of boxes for the packet's streams, and for the packet.
     std::vector<TreeChild> waiting;
     std::vector<std::uint64_t> waiting_lanes;
     std::vector<WaitingTogether> waiting_together;

@@ -21,8 +21,8 @@ constexpr std::size_t any_order = octant_count;
 /// A child of a node of a tree of boxes, see WideNode, in 64 bits. The lower part says what it is:
 /// another node, or a block of up to block_width elements of one kind; and where. The upper part
 /// belongs to its place in the node rather than to the child: which of the node's children is the
-/// one to be kept longest waiting there, in each order. While a child waits, its upper part says
-/// where the ray enters its box.
+/// one to be kept longest waiting there, in each order. While a child waits for one ray, or for a
+/// beam, its upper part says where that enters its box.
 struct TreeChild {
     std::uint64_t bits = 0;
 

@@ -28,16 +28,16 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// Children of a node that a ray is tested against together.
 using Children = hn::CappedTag<float, tree_width>;
 
-#undef VERA_COMPRESS_CHILDREN
+#undef VERA_AVX512
 #if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
-#define VERA_COMPRESS_CHILDREN 1
+#define VERA_AVX512 1
 #else
-#define VERA_COMPRESS_CHILDREN 0
+#define VERA_AVX512 0
 #endif
 
 template <typename D>
 HWY_INLINE std::uint32_t bits_of(D d, hn::Mask<D> mask) {
-#if VERA_COMPRESS_CHILDREN
+#if VERA_AVX512
     if constexpr (sizeof(mask.raw) <= sizeof(std::uint16_t))
         return static_cast<std::uint32_t>(mask.raw) & ((std::uint32_t{1} << hn::Lanes(d)) - 1);
 #endif
@@ -69,11 +69,11 @@ constexpr auto plane_places = [] {
 template <typename NearAt, typename FarAt>
 HWY_INLINE std::uint32_t put_met_children(
     const WideNode& node,
-    std::size_t order,
+    [[maybe_unused]] std::size_t order,
     const NearAt& near_at,
     const FarAt& far_at,
     TreeChild* stack) {
-#if VERA_COMPRESS_CHILDREN
+#if VERA_AVX512
     const __m512i children = _mm512_load_si512(node.children.data());
     const __m512i numbers = _mm512_srl_epi64(
         children, _mm_cvtsi32_si128(static_cast<int>(TreeChild::order_shift_of(order))));
@@ -98,14 +98,6 @@ HWY_INLINE std::uint32_t put_met_children(
         met |= bits_of(d, hn::Le(enters, far_at(i))) << i;
     }
     std::uint32_t size = 0;
-    if (order == any_order) {
-        for (std::size_t place = 0; place < tree_width; ++place) {
-            const std::size_t i = node.children[place].in_order(order);
-            if ((met >> i & 1U) != 0)
-                stack[size++] = TreeChild::waiting(node.children[i], near[i]);
-        }
-        return size;
-    }
     for (; met != 0; met &= met - 1) {
         const auto i = static_cast<std::size_t>(std::countr_zero(met));
         const TreeChild child = TreeChild::waiting(node.children[i], near[i]);
@@ -124,7 +116,7 @@ HWY_INLINE std::uint32_t drop_behind(TreeChild* stack, std::uint32_t size, float
     // As integers, numbers that are not negative have the same order.
     const std::uint64_t last = TreeChild::waiting({~std::uint64_t{0}}, limit).bits;
     std::uint32_t kept = 0;
-#if VERA_COMPRESS_CHILDREN
+#if VERA_AVX512
     for (std::uint32_t i = 0; i < size; i += tree_width) {
         const __m512i children = _mm512_loadu_si512(stack + i);
         const std::uint32_t there = size - i < tree_width ? (1U << (size - i)) - 1 : 0xffU;
@@ -158,51 +150,6 @@ fetch(const WideNode* nodes, const void* blocks, std::size_t unit, const TreeChi
             first * unit + (if_node & (to_nodes + first * (sizeof(WideNode) - unit))));
     for (std::size_t line = 0; line < sizeof(WideNode); line += 128)
         hwy::Prefetch(place + line);
-}
-
-/// A ray on its way: what a step takes, side by side.
-struct alignas(64) Walk {
-    float inverse[3];
-    float near_offset[3];
-    float far_offset[3];
-    std::array<std::uint8_t, 6> places; ///< see plane_places
-    std::uint8_t order;                 ///< see put_met_children
-    std::uint32_t size;                 ///< of the stack
-    TreeChild* stack;                   ///< what waits; the next one is on top
-    TreeChild next;                     ///< where the ray is
-};
-
-/// Lets the children of the node wait whose boxes the ray meets before the limit.
-HWY_INLINE void add_met_children(const WideNode& node, float limit, Walk& walk) {
-    const Children d;
-    const float* const planes = node.planes[0].data();
-    const auto enter = [&](std::size_t axis, std::size_t i) HWY_ATTR {
-        return hn::MulAdd(
-            hn::Load(d, planes + walk.places[axis] + i),
-            hn::Set(d, walk.inverse[axis]),
-            hn::Set(d, walk.near_offset[axis]));
-    };
-    const auto leave = [&](std::size_t axis, std::size_t i) HWY_ATTR {
-        return hn::MulAdd(
-            hn::Load(d, planes + walk.places[3 + axis] + i),
-            hn::Set(d, walk.inverse[axis]),
-            hn::Set(d, walk.far_offset[axis]));
-    };
-    const auto near_at = [&](std::size_t i) HWY_ATTR {
-        return hn::Max(hn::Max(enter(0, i), enter(1, i)), hn::Max(enter(2, i), hn::Zero(d)));
-    };
-    const auto far_at = [&](std::size_t i) HWY_ATTR {
-        return hn::Min(hn::Min(leave(0, i), leave(1, i)), hn::Min(leave(2, i), hn::Set(d, limit)));
-    };
-    walk.size += put_met_children(node, walk.order, near_at, far_at, walk.stack + walk.size);
-}
-
-/// Moves the ray to the next child that waits for it; false when there is none.
-HWY_INLINE bool take_waiting(Walk& walk) {
-    if (walk.size == 0)
-        return false;
-    walk.next = walk.stack[--walk.size];
-    return true;
 }
 
 /// What waits for one ray, or for a packet, in a tree of so many levels is at most this much: at

@@ -200,7 +200,7 @@ void search_together(
     const BoxRays& rays,
     LaneMask lanes,
     std::size_t octant,
-    OctantStreams& streams) {
+    PacketStreams& streams) {
     const GeometryTree& tree = tree_of(frame);
     Beam beam = beam_of(frame, octant, lanes);
     float limit = largest_limit(frame, lanes);
@@ -208,10 +208,11 @@ void search_together(
     std::size_t size = 0;
     std::size_t turn = 0;
     const auto leave = [&](const WaitingTogether& left) {
-        StreamStack& later = streams.all[turn++ % octant_count].stack;
+        StreamStack& later = streams.all[turn % octant_count].stack;
         if (later.size == tree_width)
             return false;
         later.push(left.child, left.lanes);
+        ++turn;
         return true;
     };
     WaitingTogether next = {TreeChild::node(0), lanes, 0};
@@ -279,7 +280,7 @@ void search_tree(PacketQuery& query, Frame& frame, LaneMask lanes) {
     }
     BoxRays rays;
     fill_box_rays(frame, rays);
-    OctantStreams streams;
+    PacketStreams streams;
     for (std::size_t i = 0; i < octant_count; ++i)
         streams.all[i].stack = {
             frame.waiting.data() + i * depth, frame.waiting_lanes.data() + i * depth, 0};

@@ -54,7 +54,7 @@ struct StreamStack {
     }
 };
 
-#if VERA_COMPRESS_CHILDREN
+#if VERA_AVX512
 /// The rays that meet each of the children of a node.
 using ChildRays = __m512i;
 
@@ -72,8 +72,9 @@ HWY_INLINE ChildRays all_for(std::uint32_t children, StreamMask rays) {
 }
 #endif
 
-/// A ray as boxes are tested against it: see Walk. From one axis to the next it is so many numbers
-/// as Stride says.
+/// A ray as boxes are tested against it. It comes to a plane across an axis, moved outward by the
+/// slack, at (plane's place) * inverse + near_offset where it enters the box there, and at the same
+/// with far_offset where it leaves. From one axis to the next it is so many numbers as Stride says.
 template <std::size_t Stride>
 struct BoxedRay {
     const float* inverse;
@@ -121,7 +122,7 @@ HWY_INLINE ChildRays rays_of_children(
             take(hn::Le(near, far), rest & -rest);
         }
     };
-#if VERA_COMPRESS_CHILDREN
+#if VERA_AVX512
     ChildRays met_rays = _mm512_setzero_si512();
     test(0, [&](hn::Mask<Children> met, StreamMask bit) HWY_ATTR {
         met_rays = _mm512_mask_or_epi64(
@@ -145,7 +146,7 @@ HWY_INLINE ChildRays rays_of_children(
 /// Whole registers are stored.
 HWY_INLINE void put_waiting(
     const WideNode& node, const ChildRays& met_rays, std::size_t order, StreamStack& stack) {
-#if VERA_COMPRESS_CHILDREN
+#if VERA_AVX512
     const __m512i children = _mm512_load_si512(node.children.data());
     const __m512i numbers = _mm512_srl_epi64(
         children, _mm_cvtsi32_si128(static_cast<int>(TreeChild::order_shift_of(order))));

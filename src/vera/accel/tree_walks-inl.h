@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays that go down a tree of boxes each by itself: see tree_search.cpp. Compiled once for each
+// Rays of a packet that go different ways down a tree of boxes: see tree_search.cpp. Compiled once for each
 // instruction set.
 
 #if defined(VERA_ACCEL_TREE_WALKS_INL_H) == defined(HWY_TARGET_TOGGLE)
@@ -33,8 +33,8 @@ struct OctantStream {
     StreamStack stack;
 };
 
-/// What waits for the packet's rays, octant by octant.
-struct OctantStreams {
+/// What waits for the packet's rays; several streams may be of one octant.
+struct PacketStreams {
     std::array<OctantStream, octant_count> all;
     std::size_t count = 0;
 };
@@ -52,6 +52,7 @@ HWY_INLINE void put_met_children(
     std::size_t octant,
     LaneMask lanes,
     StreamStack& stack) {
+    static_assert(sizeof(FloatRow) == packet_size * sizeof(float));
     const auto ray_at = [&](std::size_t lane) {
         return BoxedRay<packet_size>{
             rays.inverse[0].data() + lane,
@@ -69,7 +70,7 @@ HWY_INLINE void put_met_children(
 /// Follows the streams, a step each in turn, so that what each needs next arrives while the others
 /// work.
 inline void search_streams(
-    PacketQuery& query, Frame& frame, const BoxRays& rays, OctantStreams& streams) {
+    PacketQuery& query, Frame& frame, const BoxRays& rays, PacketStreams& streams) {
     const GeometryTree& tree = tree_of(frame);
     std::uint32_t under_way = (std::uint32_t{1} << streams.count) - 1;
     while (under_way != 0) {

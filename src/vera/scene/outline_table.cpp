@@ -159,7 +159,8 @@ void set_cells(OutlineTable& table, OutlineStrips& outline, std::span<const Vec3
     const double lower_v = outline.bounds.lower.*outline.v_axis;
     const double width = outline.bounds.upper.*outline.u_axis - lower_u;
     const double height = outline.bounds.upper.*outline.v_axis - lower_v;
-    // Where cells are far larger than what is rounded, it moves nothing by more than a cell.
+    // Where cells are far larger than what is rounded, it moves nothing by more than a cell; and a
+    // strip that is not far higher than that is never asked about: margins are larger.
     constexpr double least_part = 0x1p-20;
     if (outline.strip_count == 1 || !(std::min(width, height) > least_part * outline.size))
         return;
@@ -307,9 +308,10 @@ std::size_t most_memory_of_outline_table(const Geometry& geometry) {
 // a corner moves along u by 16 e s and by (deviation + 32 e s) |direction.u / speed| at most; the
 // place by a bit less, as it is rounded by itself, when s includes its distance from the origin. No
 // side then passes over the place while it moves, and the outline turns about it as often as
-// before, as long as it does not come nearer than these together: nor does it where the place with
-// its margins lies in a cell that no side touches. The margins are larger than
+// before, as long as it does not come nearer than these together. The margins are larger than
 // that by half, for their own rounding and that of determinants.
+//
+// Where the place with its margins lies in a cell that no side touches, none comes as near.
 InclusionStatus inclusion_status(
     const OutlineTable& table,
     const OutlineStrips& outline,
