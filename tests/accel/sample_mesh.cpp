@@ -349,8 +349,7 @@ coherent_mesh_rays(std::uint64_t seed, const SampleMesh& mesh, std::size_t count
     return rays;
 }
 
-std::vector<MeshRay>
-rays_of_lights(std::uint64_t seed, const SampleMesh& mesh, std::size_t count) {
+std::vector<MeshRay> rays_of_lights(std::uint64_t seed, const SampleMesh& mesh, std::size_t count) {
     constexpr std::size_t rays_of_light = 96;
     Dice dice(seed);
     std::vector<MeshRay> rays;

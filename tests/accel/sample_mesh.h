@@ -60,8 +60,7 @@ coherent_mesh_rays(std::uint64_t seed, const SampleMesh& mesh, std::size_t count
 
 /// Rays from all places of which each 96 run to one place, or in one direction, or nearly: those of
 /// one light.
-std::vector<MeshRay>
-rays_of_lights(std::uint64_t seed, const SampleMesh& mesh, std::size_t count);
+std::vector<MeshRay> rays_of_lights(std::uint64_t seed, const SampleMesh& mesh, std::size_t count);
 
 /// Copies of a ray that begin and end before, at and behind the t.
 std::vector<MeshRay> rays_cut_at(const MeshRay& ray, float t);

@@ -109,8 +109,7 @@ struct Sides {
 template <typename D>
 HWY_INLINE Sides<hn::Vec<D>> sides_at(D d, const float* rows, std::size_t size, std::size_t i) {
     using V = hn::Vec<D>;
-    const auto row =
-        [&](std::size_t j) HWY_ATTR { return hn::LoadU(d, rows + j * size + i); };
+    const auto row = [&](std::size_t j) HWY_ATTR { return hn::LoadU(d, rows + j * size + i); };
     const Vector<V> a = {row(0), row(1), row(2)};
     const Vector<V> e = difference<V>({row(3), row(4), row(5)}, a);
     const Vector<V> f = difference<V>({row(6), row(7), row(8)}, a);

@@ -83,8 +83,9 @@ HWY_NOINLINE inline void bound_rays(std::size_t octant, RayStream& stream) {
     alignas(64) float least[bounded];
     alignas(64) float most[bounded];
     for (std::size_t i = 0; i < bounded; i += hn::Lanes(d)) {
-        const auto numbers = [&](std::size_t ray)
-                                 HWY_ATTR { return hn::Load(d, reinterpret_cast<const float*>(stream.rays[ray]) + i); };
+        const auto numbers = [&](std::size_t ray) HWY_ATTR {
+            return hn::Load(d, reinterpret_cast<const float*>(stream.rays[ray]) + i);
+        };
         auto low = numbers(0);
         auto high = low;
         for (std::size_t ray = 1; ray < stream.count; ++ray) {
@@ -181,10 +182,7 @@ HWY_INLINE void put_met_children(const WideNode& node, StreamMask rays, RayStrea
         return BoxedRay<1>{ray.inverse, ray.near_offset, ray.far_offset, ray.limit};
     };
     put_waiting(
-        node,
-        rays_of_children<1>(node, stream.places, rays, ray_at),
-        stream.order,
-        stream.stack);
+        node, rays_of_children<1>(node, stream.places, rays, ray_at), stream.order, stream.stack);
 }
 
 } // namespace vera::detail::HWY_NAMESPACE

@@ -249,14 +249,20 @@ HWY_INLINE RayStream& start_stream(
     stream.count = rays.size();
     stream.left = ~StreamMask{0} >> (stream_size - rays.size());
     stream.places = plane_places[octant];
-    stream.order = any ? any_order : octant;
+    stream.order = octant;
     stream.stack = {
         search.space.stream_children.data() + number * search.space.depth,
         search.space.stream_waiting.data() + number * search.space.depth,
         0};
     stream.patience = 0;
-    if (any && run_alike(stream))
-        bound_rays(octant, stream);
+    if (any) {
+        // Which order is the best depends on the scene; this one was, on the average.
+        stream.order = number_order;
+        if (run_alike(stream)) {
+            stream.order = any_order;
+            bound_rays(octant, stream);
+        }
+    }
     return stream;
 }
 

@@ -28,6 +28,10 @@ namespace hn = hwy::HWY_NAMESPACE;
 constexpr std::size_t stream_size = 64;
 using StreamMask = std::uint64_t;
 
+/// The order of a node's children by their numbers, as the builder left them: neighbours follow
+/// each other. See any_order for the others.
+constexpr std::size_t number_order = any_order + 1;
+
 /// What waits for rays of a stream.
 struct StreamStack {
     TreeChild* children = nullptr; ///< the next one is on top
@@ -100,8 +104,7 @@ HWY_INLINE ChildRays rays_of_children(
         const auto last_y = hn::Load(d, planes + places[4] + i);
         const auto last_z = hn::Load(d, planes + places[5] + i);
         for (StreamMask rest = rays; rest != 0; rest &= rest - 1) {
-            const BoxedRay<Stride> ray =
-                ray_at(static_cast<std::size_t>(std::countr_zero(rest)));
+            const BoxedRay<Stride> ray = ray_at(static_cast<std::size_t>(std::countr_zero(rest)));
             const auto x = hn::Set(d, ray.inverse[0]);
             const auto y = hn::Set(d, ray.inverse[Stride]);
             const auto z = hn::Set(d, ray.inverse[2 * Stride]);
@@ -110,8 +113,7 @@ HWY_INLINE ChildRays rays_of_children(
                     hn::MulAdd(first_x, x, hn::Set(d, ray.near_offset[0])),
                     hn::MulAdd(first_y, y, hn::Set(d, ray.near_offset[Stride]))),
                 hn::Max(
-                    hn::MulAdd(first_z, z, hn::Set(d, ray.near_offset[2 * Stride])),
-                    hn::Zero(d)));
+                    hn::MulAdd(first_z, z, hn::Set(d, ray.near_offset[2 * Stride])), hn::Zero(d)));
             const auto far = hn::Min(
                 hn::Min(
                     hn::MulAdd(last_x, x, hn::Set(d, ray.far_offset[0])),
@@ -148,8 +150,10 @@ HWY_INLINE void put_waiting(
     const WideNode& node, const ChildRays& met_rays, std::size_t order, StreamStack& stack) {
 #if VERA_AVX512
     const __m512i children = _mm512_load_si512(node.children.data());
-    const __m512i numbers = _mm512_srl_epi64(
-        children, _mm_cvtsi32_si128(static_cast<int>(TreeChild::order_shift_of(order))));
+    const __m512i numbers = order == number_order
+        ? _mm512_set_epi64(0, 1, 2, 3, 4, 5, 6, 7)
+        : _mm512_srl_epi64(
+            children, _mm_cvtsi32_si128(static_cast<int>(TreeChild::order_shift_of(order))));
     const __m512i children_in_order = _mm512_permutexvar_epi64(numbers, children);
     const __m512i rays_in_order = _mm512_permutexvar_epi64(numbers, met_rays);
     const __mmask8 met = _mm512_test_epi64_mask(rays_in_order, rays_in_order);
@@ -159,7 +163,8 @@ HWY_INLINE void put_waiting(
     stack.size += static_cast<std::uint32_t>(std::popcount(std::uint32_t{met}));
 #else
     for (std::size_t place = 0; place < tree_width; ++place) {
-        const std::size_t child = node.children[place].in_order(order);
+        const std::size_t child =
+            order == number_order ? tree_width - 1 - place : node.children[place].in_order(order);
         if (met_rays[child] != 0)
             stack.push(node.children[child], met_rays[child]);
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays of a packet that go different ways down a tree of boxes: see tree_search.cpp. Compiled once for each
-// instruction set.
+// Rays of a packet that go different ways down a tree of boxes: see tree_search.cpp. Compiled once
+// for each instruction set.
 
 #if defined(VERA_ACCEL_TREE_WALKS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef VERA_ACCEL_TREE_WALKS_INL_H
@@ -40,7 +40,7 @@ struct PacketStreams {
 };
 
 /// So few rays are tested against a block's elements one by one.
-constexpr int few_at_block = 2;
+constexpr int few_at_block = 6;
 
 /// Lets the children of the node wait that the rays, which are all of the octant, meet before their
 /// limits.
@@ -69,8 +69,8 @@ HWY_INLINE void put_met_children(
 
 /// Follows the streams, a step each in turn, so that what each needs next arrives while the others
 /// work.
-inline void search_streams(
-    PacketQuery& query, Frame& frame, const BoxRays& rays, PacketStreams& streams) {
+inline void
+search_streams(PacketQuery& query, Frame& frame, const BoxRays& rays, PacketStreams& streams) {
     const GeometryTree& tree = tree_of(frame);
     std::uint32_t under_way = (std::uint32_t{1} << streams.count) - 1;
     while (under_way != 0) {

@@ -286,8 +286,7 @@ std::size_t most_memory_of_outline_table(const Geometry& geometry) {
     std::size_t bytes = 0;
     for (const Polygon& polygon : geometry.polygons)
         if (has_outline(polygon))
-            bytes +=
-                sizeof(OutlineStrips) + by_corner * (polygon.corner_count + std::size_t{1});
+            bytes += sizeof(OutlineStrips) + by_corner * (polygon.corner_count + std::size_t{1});
     return bytes == 0 ? 0 : bytes + geometry.polygons.size() * sizeof(std::uint32_t);
 }
 
@@ -347,8 +346,7 @@ InclusionStatus inclusion_status(
         return InclusionStatus::uncertain;
     const std::uint32_t cell = cell_at(outline, place.u - place.u_margin);
     const StripCells& cells = table.cells[outline.first_strip + strip];
-    if ((cells.known >> cell & 1U) != 0
-        && cell_at(outline, place.u + place.u_margin) == cell)
+    if ((cells.known >> cell & 1U) != 0 && cell_at(outline, place.u + place.u_margin) == cell)
         return (cells.inside >> cell & 1U) != 0 ? InclusionStatus::inside
                                                 : InclusionStatus::outside;
 

@@ -113,7 +113,8 @@ polygon_crossing(const PreparedRay& prepared, std::span<const Vec3> corners, Vec
         range_of_corners(prepared, corners));
 }
 
-/// The same to the bit, by an outline of the table: goes through the sides near the ray alone, or through none.
+/// The same to the bit, by an outline of the table: goes through the sides near the ray alone, or
+/// through none.
 inline std::optional<double> polygon_crossing(
     const PreparedRay& prepared,
     std::span<const Vec3> corners,
