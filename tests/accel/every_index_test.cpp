@@ -276,9 +276,16 @@ Scene layers(ItemKind kind, std::mt19937_64& random) {
             corner + axis,
             corner + 0.75 * axis + 1.25 * width * aside,
             corner + width * aside};
-        if (kind == ItemKind::sphere)
+        if (kind == ItemKind::sphere) {
             geometry.spheres.push_back({corner, 0.5 + 0.5 * off});
-        else if (kind == ItemKind::triangle)
+        } else if (kind == ItemKind::rotational_shape) {
+            RotationalShape mantle;
+            mantle.base = middle;
+            mantle.axis = axis;
+            mantle.start = {0.5 * width + off, -0.5};
+            mantle.contour.push_back({.end = {(i % 2 == 0 ? 0.5 : 0.75) * width + off, 1}});
+            geometry.rotational_shapes.push_back(mantle);
+        } else if (kind == ItemKind::triangle)
             geometry.triangles.push_back({{corners[0], corners[1], corners[3]}});
         else {
             geometry.polygons.push_back(
@@ -296,7 +303,8 @@ TEST_P(EveryIndex, FindsTheFirstOfLayersCloserThanSinglePrecision) {
     const auto number = [&](double size) {
         return size * (static_cast<double>(random() % 2001) / 1000 - 1);
     };
-    for (const ItemKind kind : {ItemKind::sphere, ItemKind::triangle, ItemKind::polygon}) {
+    for (const ItemKind kind :
+         {ItemKind::sphere, ItemKind::triangle, ItemKind::polygon, ItemKind::rotational_shape}) {
         const Scene scene = layers(kind, random);
         std::vector<QueryRay> rays;
         for (int i = 0; i < 2000; ++i) {
@@ -312,6 +320,57 @@ TEST_P(EveryIndex, FindsTheFirstOfLayersCloserThanSinglePrecision) {
         expect_like_brute_force(
             scene, *make(scene), rays, "layers of kind " + std::to_string(static_cast<int>(kind)));
     }
+}
+
+TEST_P(EveryIndex, DecidesLikeBruteForceOnThinThingsInLargeScenes) {
+    // Of which single precision, in the unit of the scene, tells little.
+    std::mt19937_64 random(29);
+    const auto number = [&](double size) {
+        return size * (static_cast<double>(random() % 2001) / 1000 - 1);
+    };
+    for (const double thickness : {1e-1, 1e-2, 1e-4, 1e-6})
+        for (const double slope : {0.0, 0.5, -0.9, -1.0}) {
+            Scene scene;
+            Geometry& geometry = scene.geometry;
+            RotationalShape mantle;
+            mantle.base = {0.3, 0.1, -0.2};
+            mantle.axis = normalized(Vec3{1, 2, 0.5});
+            mantle.start = {thickness, 0};
+            const double length = slope < 0 ? thickness : 5 * thickness;
+            mantle.contour.push_back({.end = {thickness + slope * length, length}});
+            geometry.rotational_shapes.push_back(mantle);
+            geometry.spheres.push_back({mantle.base, thickness});
+            geometry.spheres.push_back({{40, 40, 40}, 50});
+            geometry.items = {
+                {.kind = ItemKind::rotational_shape},
+                {.kind = ItemKind::sphere},
+                {.kind = ItemKind::sphere, .index = 1}};
+            number_primitives(scene);
+            std::vector<QueryRay> rays;
+            const Vec3 aside = normalized(cross(mantle.axis, {0, 0, 1}));
+            const Vec3 other = cross(mantle.axis, aside);
+            for (int i = 0; i < 3000; ++i) {
+                const double distance = std::array{2 * thickness, 1e-1, 3.0, 60.0}[random() % 4];
+                const double h = length * static_cast<double>(random() % 5) / 4;
+                const double r = thickness + slope * h;
+                const double step =
+                    thickness * std::array{0.0, 0x1p-20, 0x1p-12, 0x1p-6}[random() % 4];
+                const Vec3 place = mantle.base + h * mantle.axis
+                    + (r + step) * cos_degrees(30.0 * (i % 12)) * aside
+                    + r * sin_degrees(30.0 * (i % 12)) * other;
+                QueryRay query;
+                query.ray.origin = place + distance * Vec3{number(1), number(1), number(1)};
+                query.ray.direction = place - query.ray.origin;
+                if (i % 3 == 0)
+                    query.ray.t_max = 1 + step;
+                rays.push_back(query);
+            }
+            expect_like_brute_force(
+                scene,
+                *make(scene),
+                rays,
+                "thickness " + std::to_string(thickness) + " slope " + std::to_string(slope));
+        }
 }
 
 TEST_P(EveryIndex, HoldsSubscenesNestedTenThousandDeep) {

@@ -63,14 +63,26 @@ polygon_record(const LocalGeometry& local, const Polygon& polygon, const Box3& l
     return record_of(ElementRecord::Kind::box, local_box.lower, local_box.upper, {});
 }
 
-/// Whether the shape is nothing but the mantle of a cylinder.
-bool is_mantle(const RotationalShape& shape) {
+/// Of a shape that is nothing but the mantle of a cylinder, or of a cone that is not flat.
+std::optional<ElementRecord>
+mantle_record(const LocalGeometry& local, const RotationalShape& shape) {
     const ContourPiece& piece = shape.contour.front();
-    return shape.contour.size() == 1 && piece.kind == ContourPiece::Kind::line
-        && piece.end.r == shape.start.r;
+    const ContourPiece::Point length = {piece.end.r - shape.start.r, piece.end.h - shape.start.h};
+    if (shape.contour.size() != 1 || piece.kind != ContourPiece::Kind::line
+        || !(std::abs(length.r) < std::abs(length.h)))
+        return std::nullopt;
+    const Vec3 middle = shape.base + (0.5 * shape.start.h + 0.5 * piece.end.h) * shape.axis;
+    const double radius = 0.5 * shape.start.r + 0.5 * piece.end.r;
+    return record_of(
+        ElementRecord::Kind::mantle,
+        local_point(local, middle),
+        shape.axis,
+        {local.scale * radius, 0.5 * local.scale * std::abs(length.h), length.r / length.h});
 }
 
 ElementRecord cylinder_record(const LocalGeometry& local, const RotationalShape& shape) {
+    if (const auto mantle = mantle_record(local, shape))
+        return *mantle;
     double lowest = shape.start.h;
     double highest = shape.start.h;
     double radius = shape.start.r;
@@ -89,7 +101,7 @@ ElementRecord cylinder_record(const LocalGeometry& local, const RotationalShape&
     const Vec3 middle = shape.base + (0.5 * lowest + 0.5 * highest) * shape.axis;
     const double half_length = 0.5 * (highest - lowest);
     return record_of(
-        is_mantle(shape) ? ElementRecord::Kind::mantle : ElementRecord::Kind::cylinder,
+        ElementRecord::Kind::cylinder,
         local_point(local, middle),
         shape.axis,
         enlarged * local.scale * Vec3{radius, half_length, 0});

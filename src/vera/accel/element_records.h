@@ -17,8 +17,9 @@ struct ElementRecord {
         quadrangle, ///< corner, edges e and f to its neighbours, x and y: corner + x e + y f is the
                     ///< opposite corner
         box,        ///< lower corner, upper corner
-        mantle,     ///< of a cylinder: center, axis (unit), radius, half its length
-        cylinder,   ///< one around a rotational shape: as mantle
+        mantle,     ///< of a cylinder or truncated cone: center, axis (unit), radius and half its
+                    ///< length, how much the radius grows along the axis
+        cylinder,   ///< one around a rotational shape: center, axis (unit), radius, half its length
         call        ///< of a subscene: as box
     };
 

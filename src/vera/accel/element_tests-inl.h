@@ -50,6 +50,7 @@ struct TestedRays {
     V inverse[3];
     V limit;
     float slack;
+    float double_slack; ///< as in Frame
 };
 
 /// Squares of sums are rounded by a few units of 2^-24.
@@ -376,46 +377,145 @@ HWY_INLINE hn::Mask<D> meets_cylinder(D d, const TestedRays<D>& rays, const hn::
     return hn::And(near_axis, hn::Or(at_heights, hn::Lt(sine, steep)));
 }
 
-/// A ray meets the mantle of a cylinder where it enters the whole infinite one between the heights
-/// of its ends, or leaves it there.
+/// Where the lines of rays meet the infinite cone, or cylinder, that a mantle is a part of: at
+/// t = middle -+ sqrt(breadth^2 - apart^2) per_square.
 template <typename D>
-HWY_INLINE hn::Mask<D>
-surely_meets_mantle(D d, const TestedRays<D>& rays, const hn::Vec<D>* values) {
-    using V = hn::Vec<D>;
-    const auto place = axis_place(rays, values);
-    const V sine = hn::Sqrt(place.sine_squared);
-    const V per_square = hn::Div(hn::Set(d, 1), place.sine_squared);
-    const V middle = hn::Mul(place.middle_by_square, per_square);
+struct ConePlace {
+    AxisPlace<hn::Vec<D>> axis;
+    hn::Vec<D> per_square;
+    hn::Vec<D> middle;
+    hn::Vec<D> breadth;
+    hn::Vec<D> error;     ///< of breadth and of heights, at most
+    hn::Mask<D> is_known; ///< the ray runs neither along the axis nor along the cone
+};
 
-    // Half the length of the ray within the cylinder lies between these two.
-    const V slack = hn::Set(d, rays.slack);
-    const V margin = hn::Mul(hn::Set(d, 4), slack);
-    const V inner = hn::Sub(hn::Mul(sine, hn::Sub(values[6], margin)), margin);
-    const V outer = hn::Add(hn::Mul(sine, hn::Add(values[6], margin)), margin);
-    const V apart_squared = hn::Mul(place.apart, place.apart);
-    const V shorter = hn::Mul(
-        hn::Sqrt(hn::Max(hn::Zero(d), hn::Sub(hn::Mul(inner, inner), apart_squared))), per_square);
-    const V longer = hn::Mul(
-        hn::Sqrt(hn::Max(hn::Zero(d), hn::Sub(hn::Mul(outer, outer), apart_squared))), per_square);
-    // |middle| is at most a few units over the sine's square, and so is its error.
-    const V off = hn::Mul(hn::Mul(hn::Set(d, 16), slack), per_square);
-    const auto passes = hn::And(hn::Gt(inner, place.apart), hn::Gt(sine, hn::Set(d, 0.1F)));
+/// The largest of three numbers without their signs.
+template <typename D>
+HWY_INLINE hn::Vec<D> largest_of(D, const hn::Vec<D> (&v)[3]) {
+    return hn::Max(hn::Abs(v[0]), hn::Max(hn::Abs(v[1]), hn::Abs(v[2])));
+}
+
+/// At height h over the center the mantle is radius + slope h away from the axis. With p that at
+/// the origin's height and q its growth for one unit of t, the ray meets the cone where (sine^2 -
+/// q^2) t^2 + 2 (b - p q) t + c - p^2 = 0, if b and c are those of the squared distance of the ray
+/// from the axis. The discriminant is the difference of the squares of two lengths, |p across - q
+/// from_axis| and apart, in which less cancels.
+///
+/// What is small lies often in a large scene, so that its size and distances count here, and not
+/// the slack that holds for the whole scene. The numbers are up to 130 * 2^-24 of them off, with
+/// what moving the ray does to them.
+template <typename D>
+HWY_INLINE ConePlace<D> cone_place(D d, const TestedRays<D>& rays, const hn::Vec<D>* values) {
+    using V = hn::Vec<D>;
+    const auto axis = axis_place(rays, values);
+    const V p = hn::NegMulAdd(values[8], axis.height, values[6]);
+    const V q = hn::Mul(values[8], axis.rise);
+    const V along_axis = hn::MulAdd(p, axis.rise, hn::Mul(q, axis.height));
+    const V to_center[3] = {
+        hn::Sub(values[0], rays.origin[0]),
+        hn::Sub(values[1], rays.origin[1]),
+        hn::Sub(values[2], rays.origin[2])};
+    const auto component = [&](std::size_t i) HWY_ATTR {
+        const V along_ray = hn::MulAdd(p, rays.direction[i], hn::Mul(q, to_center[i]));
+        return hn::NegMulAdd(along_axis, values[3 + i], along_ray);
+    };
+    const V breadth[3] = {component(0), component(1), component(2)};
+    const V size =
+        hn::Add(hn::Add(largest_of(d, to_center), largest_of(d, rays.origin)), hn::Abs(values[6]));
+    const V square = hn::NegMulAdd(q, q, axis.sine_squared);
+    const V per_square = hn::Div(hn::Set(d, 1), square);
+    return {
+        axis,
+        per_square,
+        hn::Mul(hn::MulAdd(p, q, axis.middle_by_square), per_square),
+        hn::Sqrt(dot3(breadth, breadth)),
+        hn::MulAdd(size, hn::Set(d, 0x1p-17F), hn::Set(d, 4 * rays.double_slack)),
+        hn::And(
+            hn::Gt(axis.sine_squared, hn::Set(d, 0.01F)),
+            hn::Gt(square, hn::Mul(hn::Set(d, 0.25F), axis.sine_squared)))};
+}
+
+/// The rays whose lines may meet the cone of the mantle, and those of which that is not known.
+template <typename D>
+HWY_INLINE hn::Mask<D> may_meet_cone(D d, const TestedRays<D>& rays, const hn::Vec<D>* values) {
+    const auto place = cone_place(d, rays, values);
+    const auto reach = hn::Add(place.breadth, place.error);
+    return hn::Or(hn::Ge(reach, place.axis.apart), hn::Not(place.is_known));
+}
+
+/// A ray meets a mantle where it enters the whole cone between the heights of the mantle's ends, or
+/// leaves it there.
+template <typename D>
+HWY_INLINE Meeting<D> meeting_mantle(D d, const TestedRays<D>& rays, const hn::Vec<D>* values) {
+    using V = hn::Vec<D>;
+    const auto place = cone_place(d, rays, values);
+    const V zero = hn::Zero(d);
+    const V margin = place.error;
+
+    // Half the length of the line within the cone lies between these two.
+    const V inner = hn::Sub(place.breadth, margin);
+    const V outer = hn::Add(place.breadth, margin);
+    const V apart_squared = hn::Mul(place.axis.apart, place.axis.apart);
+    const auto half_length = [&](V breadth) HWY_ATTR {
+        const V squared = hn::Sub(hn::Mul(breadth, breadth), apart_squared);
+        return hn::Mul(hn::Sqrt(hn::Max(zero, squared)), place.per_square);
+    };
+    const V shorter = half_length(inner);
+    const V longer = half_length(outer);
+    // The square itself is off by up to 2^-19 sines, and is a quarter of their square at least.
+    const V off = hn::Mul(hn::Mul(margin, hn::Set(d, 8)), place.per_square);
 
     const V end = sure_limit(d, rays);
-    const V heights = hn::Sub(hn::Sub(values[7], margin), off);
-    const auto at_heights = [&](V t) {
-        return hn::Le(hn::Abs(hn::Sub(hn::Mul(t, place.rise), place.height)), heights);
+    const V shortest = hn::Sub(values[7], margin);
+    const V longest = hn::Add(values[7], margin);
+
+    struct Crossing {
+        V first;
+        V last;
+        hn::Mask<D> may;
+        hn::Mask<D> sure;
     };
-    const auto between = [&](V first, V last) {
-        return hn::And(
-            hn::And(hn::Gt(first, margin), hn::Lt(last, end)),
-            hn::And(at_heights(first), at_heights(last)));
+
+    const auto between = [&](V first, V last) HWY_ATTR {
+        const V at_first = hn::MulSub(first, place.axis.rise, place.axis.height);
+        const V at_last = hn::MulSub(last, place.axis.rise, place.axis.height);
+        const V lowest = hn::Min(at_first, at_last);
+        const V highest = hn::Max(at_first, at_last);
+        return Crossing{
+            first,
+            last,
+            hn::And(
+                hn::And(hn::Ge(last, zero), hn::Le(first, rays.limit)),
+                hn::And(hn::Le(lowest, longest), hn::Ge(highest, hn::Neg(longest)))),
+            hn::And(
+                hn::And(hn::Gt(first, margin), hn::Lt(last, end)),
+                hn::And(hn::Le(highest, shortest), hn::Ge(lowest, hn::Neg(shortest))))};
     };
-    const auto entering =
-        between(hn::Sub(hn::Sub(middle, longer), off), hn::Add(hn::Sub(middle, shorter), off));
-    const auto leaving =
-        between(hn::Sub(hn::Add(middle, shorter), off), hn::Add(hn::Add(middle, longer), off));
-    return hn::And(passes, hn::Or(entering, leaving));
+    const Crossing enters = between(
+        hn::Sub(hn::Sub(place.middle, longer), off), hn::Add(hn::Sub(place.middle, shorter), off));
+    const Crossing leaves = between(
+        hn::Sub(hn::Add(place.middle, shorter), off), hn::Add(hn::Add(place.middle, longer), off));
+    const auto touches = hn::And(place.is_known, hn::Ge(outer, place.axis.apart));
+    const auto passes = hn::And(place.is_known, hn::Gt(inner, place.axis.apart));
+    Meeting<D> result = {
+        hn::And(touches, hn::Or(enters.may, leaves.may)),
+        hn::And(passes, hn::Or(enters.sure, leaves.sure)),
+        hn::IfThenElseZero(place.is_known, hn::IfThenElse(enters.may, enters.first, leaves.first)),
+        hn::IfThenElse(enters.sure, enters.last, leaves.last)};
+    if (!hn::AllTrue(d, place.is_known)) {
+        const V around[8] = {
+            values[0],
+            values[1],
+            values[2],
+            values[3],
+            values[4],
+            values[5],
+            hn::MulAdd(hn::Abs(values[8]), values[7], values[6]),
+            values[7]};
+        result.may =
+            hn::Or(result.may, hn::AndNot(place.is_known, meets_cylinder(d, rays, around)));
+    }
+    return result;
 }
 
 template <typename D>
@@ -435,6 +535,7 @@ may_meet(D d, const TestedRays<D>& rays, ElementRecord::Kind kind, const hn::Vec
     case ElementRecord::Kind::quadrangle:
         return meeting_face(d, rays, quadrangle_place(d, rays, values)).may;
     case ElementRecord::Kind::mantle:
+        return meeting_mantle(d, rays, values).may;
     case ElementRecord::Kind::cylinder:
         return meets_cylinder(d, rays, values);
     case ElementRecord::Kind::box:
@@ -456,7 +557,7 @@ surely_meets(D d, const TestedRays<D>& rays, ElementRecord::Kind kind, const hn:
     case ElementRecord::Kind::quadrangle:
         return meeting_face(d, rays, quadrangle_place(d, rays, values)).sure;
     case ElementRecord::Kind::mantle:
-        return surely_meets_mantle(d, rays, values);
+        return meeting_mantle(d, rays, values).sure;
     case ElementRecord::Kind::cylinder:
     case ElementRecord::Kind::box:
     case ElementRecord::Kind::call:
@@ -475,13 +576,27 @@ surely_leaves(D d, const TestedRays<D>& rays, ElementRecord::Kind kind, const hn
     case ElementRecord::Kind::triangle:
     case ElementRecord::Kind::quadrangle:
         return hn::Not(none(d));
-    case ElementRecord::Kind::mantle:
+    case ElementRecord::Kind::mantle: {
+        // Outwards: the other place where it meets the cone lies behind it.
+        const auto place = cone_place(d, rays, values);
+        return hn::And(
+            place.is_known,
+            hn::Lt(place.middle, hn::Mul(hn::Mul(place.error, hn::Set(d, -8)), place.per_square)));
+    }
     case ElementRecord::Kind::cylinder:
     case ElementRecord::Kind::box:
     case ElementRecord::Kind::call:
         break;
     }
     return none(d);
+}
+
+/// Rules out most of the rays that do not meet an element of the kind, in little time.
+template <typename D>
+HWY_INLINE hn::Mask<D>
+may_come_near(D d, const TestedRays<D>& rays, ElementRecord::Kind kind, const hn::Vec<D>* values) {
+    return kind == ElementRecord::Kind::mantle ? may_meet_cone(d, rays, values)
+                                               : may_meet(d, rays, kind, values);
 }
 
 /// Both may_meet() and surely_meets(), and between which distances.
@@ -495,6 +610,8 @@ meeting(D d, const TestedRays<D>& rays, ElementRecord::Kind kind, const hn::Vec<
         return meeting_face(d, rays, quadrangle_place(d, rays, values));
     case ElementRecord::Kind::sphere:
         return meeting_ball(d, rays, values, values[3]);
+    case ElementRecord::Kind::mantle:
+        return meeting_mantle(d, rays, values);
     default:
         break;
     }

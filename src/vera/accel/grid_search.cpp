@@ -60,7 +60,8 @@ HWY_INLINE TestedRays<Tag<Width>> rays_at(const Frame& frame, std::size_t lane) 
          row<Width>(frame.inverse[1], lane),
          row<Width>(frame.inverse[2], lane)},
         row<Width>(frame.limit, lane),
-        frame.slack};
+        frame.slack,
+        frame.double_slack};
 }
 
 template <std::size_t Width>

@@ -2,6 +2,7 @@
 #include "vera/accel/packet_query.h"
 
 #include "vera/accel/every_crossing.h"
+#include "vera/accel/exact_round.h"
 #include "vera/accel/exact_triangles.h"
 #include "vera/base/check.h"
 #include "vera/math/transform.h"
@@ -282,13 +283,38 @@ CornerPlaces corner_places(const LocalGeometry& local, std::uint32_t element) {
     return {{first, first + 1, first + 2}};
 }
 
-/// Takes the crossings of lanes' rays with a triangle each.
-void decide_triangles(
+MaterialId material_at(const Geometry& geometry, const Frame& frame, std::uint32_t element) {
+    const Item& item = geometry.items[element_at(geometry, element).item];
+    return resolved(item.material, frame.material);
+}
+
+/// An element for each lane.
+using ElementRow = std::array<std::uint32_t, packet_size>;
+
+/// Takes the crossings of lanes' rays with their elements.
+void take_crossings(
     PacketQuery& query,
-    Frame& frame,
-    LaneMask lanes,
-    const std::array<std::uint32_t, packet_size>& elements) {
+    const Frame& frame,
+    LaneMask met,
+    const ElementRow& elements,
+    const RayRows::Row& t) {
     const Geometry& geometry = *frame.local->geometry;
+    for (LaneMask rest = met; rest != 0; rest &= rest - 1) {
+        const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+        const std::uint32_t element = elements[lane];
+        const std::uint64_t number = frame.first_primitive
+            + (geometry.calls.empty() ? element
+                                      : primitive_number(geometry, element_at(geometry, element)));
+        const MaterialId material = query.purpose == Purpose::transmittance
+            ? material_at(geometry, frame, element)
+            : inherited_material; // which does not count
+        if (take_crossing(query, lane, t[lane], {number, 0}, material))
+            ++query.changes;
+    }
+}
+
+void decide_triangles(
+    PacketQuery& query, Frame& frame, LaneMask lanes, const ElementRow& elements) {
     std::array<CornerPlaces, packet_size> places;
     for (LaneMask rest = lanes; rest != 0; rest &= rest - 1) {
         const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
@@ -312,16 +338,82 @@ void decide_triangles(
     }
     RayRows::Row t;
     const LaneMask met = cross_triangles(frame, lanes, triangles, t);
-    for (LaneMask rest = met; rest != 0; rest &= rest - 1) {
-        const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-        const std::uint32_t element = elements[lane];
-        const std::uint64_t number = frame.first_primitive
-            + (geometry.calls.empty() ? element
-                                      : primitive_number(geometry, element_at(geometry, element)));
-        // What lets light through does not wait: no material is asked for.
-        if (take_crossing(query, lane, t[lane], {number, 0}, inherited_material))
-            ++query.changes;
+    take_crossings(query, frame, met, elements, t);
+}
+
+void put(const Sphere& sphere, std::size_t lane, SphereRows& rows) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        rows.center[axis][lane] = sphere.center[axis];
+    rows.radius[lane] = sphere.radius;
+}
+
+void put(const RotationalShape& shape, std::size_t lane, MantleRows& rows) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        rows.base[axis][lane] = shape.base[axis];
+        rows.axis[axis][lane] = shape.axis[axis];
     }
+    const ContourPiece::Point end = shape.contour.front().end;
+    rows.start_r[lane] = shape.start.r;
+    rows.start_h[lane] = shape.start.h;
+    rows.end_r[lane] = end.r;
+    rows.end_h[lane] = end.h;
+}
+
+/// Of the elements, which are all of these shapes; what no closed formula tells is asked one by
+/// one.
+template <typename Rows, typename Shape, typename Cross>
+void decide_round(
+    PacketQuery& query,
+    Frame& frame,
+    LaneMask lanes,
+    const ElementRow& elements,
+    const std::vector<Shape>& shapes,
+    const Cross& cross) {
+    const Geometry& geometry = *frame.local->geometry;
+    Rows rows;
+    LaneMask starting = 0;
+    for (LaneMask rest = lanes; rest != 0; rest &= rest - 1) {
+        const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+        starting |= LaneMask{frame.start_element[lane] == elements[lane]} << lane;
+        const std::uint32_t item = element_at(geometry, elements[lane]).item;
+        put(shapes[geometry.items[item].index], lane, rows);
+    }
+    RoundCrossings crossings;
+    cross(frame, lanes, starting, rows, crossings);
+    for (std::size_t i = 0; i < crossings.met.size(); ++i)
+        take_crossings(query, frame, crossings.met[i], elements, crossings.t[i]);
+    for (LaneMask rest = crossings.undecided; rest != 0; rest &= rest - 1) {
+        const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+        test_exactly(query, frame, elements[lane], LaneMask{1} << lane);
+    }
+}
+
+/// Those of the lanes of which that is the element.
+LaneMask lanes_of(std::uint32_t element, LaneMask lanes, const ElementRow& elements) {
+    LaneMask same = 0;
+    for (LaneMask rest = lanes; rest != 0; rest &= rest - 1) {
+        const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+        if (elements[lane] == element)
+            same |= LaneMask{1} << lane;
+    }
+    return same;
+}
+
+/// The way in which an element's crossings with a ray are decided.
+enum class Decision : std::uint8_t { triangle, sphere, mantle, by_itself };
+
+Decision decision_of(ElementRecord::Kind kind) {
+    switch (kind) {
+    case ElementRecord::Kind::triangle:
+        return Decision::triangle;
+    case ElementRecord::Kind::sphere:
+        return Decision::sphere;
+    case ElementRecord::Kind::mantle:
+        return Decision::mantle;
+    default:
+        break;
+    }
+    return Decision::by_itself;
 }
 
 } // namespace
@@ -329,33 +421,35 @@ void decide_triangles(
 void decide(PacketQuery& query, Frame& frame, LaneMask lanes) {
     Candidates& candidates = frame.candidates;
     while (candidates.count > 0) {
-        std::array<std::uint32_t, packet_size> elements; // their numbers, at first
+        ElementRow elements; // their numbers, at first
         const LaneMask taken = take_candidates(frame, lanes & query.active, elements);
         if (taken == 0)
             break;
-        LaneMask triangles = 0;
-        LaneMask others = 0;
+        std::array<LaneMask, 4> by_decision = {};
         for (LaneMask rest = taken; rest != 0; rest &= rest - 1) {
             const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
             const Candidates::Candidate& candidate = candidates.all[elements[lane]];
             elements[lane] = candidate.element;
-            const bool triangle = candidate.kind == ElementRecord::Kind::triangle;
-            (triangle ? triangles : others) |= LaneMask{1} << lane;
+            by_decision[static_cast<std::size_t>(decision_of(candidate.kind))] |= LaneMask{1}
+                << lane;
         }
-        while (others != 0) {
+        const auto [triangles, spheres, mantles, others] = by_decision;
+        for (LaneMask rest = others; rest != 0;) {
             const std::uint32_t element =
-                elements[static_cast<std::size_t>(std::countr_zero(others))];
-            LaneMask same = 0;
-            for (LaneMask rest = others; rest != 0; rest &= rest - 1) {
-                const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-                if (elements[lane] == element)
-                    same |= LaneMask{1} << lane;
-            }
+                elements[static_cast<std::size_t>(std::countr_zero(rest))];
+            const LaneMask same = lanes_of(element, rest, elements);
             test_exactly(query, frame, element, same);
-            others &= ~same;
+            rest &= ~same;
         }
+        const Geometry& geometry = *frame.local->geometry;
         if (triangles != 0)
             decide_triangles(query, frame, triangles, elements);
+        if (spheres != 0)
+            decide_round<SphereRows>(
+                query, frame, spheres, elements, geometry.spheres, cross_spheres);
+        if (mantles != 0)
+            decide_round<MantleRows>(
+                query, frame, mantles, elements, geometry.rotational_shapes, cross_mantles);
         LaneMask more = 0;
         for (std::size_t i = 0; i < candidates.count; ++i)
             more |= candidates.all[i].lanes;
@@ -385,6 +479,21 @@ void fetch_candidates(const Frame& frame) {
 void decide_main_scene(PacketQuery& query) {
     if (!query.frames.empty())
         decide(query, query.frames.front(), ~LaneMask{0});
+}
+
+bool ends_search(const PacketQuery& query, const Frame& frame, std::uint32_t element) {
+    switch (query.purpose) {
+    case Purpose::any:
+        return true;
+    case Purpose::transmittance: {
+        const MaterialId material = material_at(*frame.local->geometry, frame, element);
+        return is_black(transmission(*query.scene, material));
+    }
+    case Purpose::nearest:
+    case Purpose::window:
+        break;
+    }
+    return false;
 }
 
 void block(PacketQuery& query, Frame& frame, LaneMask lanes) {

@@ -98,6 +98,7 @@ struct alignas(64) Frame {
     RayRows::Row speed;   ///< local distance for one unit of t
     std::array<std::uint32_t, packet_size> start_element;
     float slack = 0;
+    float double_slack = 0;      ///< the part of slack that is not for single precision
     float behind = 0;            ///< twice the largest coincidence_tolerance() of the lanes
     LaneMask prepared_lanes = 0; ///< whose prepared rays were made
     const LocalGeometry* local = nullptr;
@@ -268,7 +269,10 @@ add_candidate(Frame& frame, ElementRecord::Kind kind, std::uint32_t element, Lan
         hwy::Prefetch(frame.local->mesh_corners + std::size_t{3} * element);
 }
 
-/// Notes that the lanes' rays, of which only that is asked, meet something.
+/// Whether nothing else counts for a ray that meets the element, which is not a call.
+bool ends_search(const PacketQuery& query, const Frame& frame, std::uint32_t element);
+
+/// Notes that nothing passes along the lanes' rays.
 void block(PacketQuery& query, Frame& frame, LaneMask lanes);
 
 /// Searches the whole scene, of which the query's geometries are GeometryGrids.

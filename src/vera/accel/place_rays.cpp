@@ -208,6 +208,8 @@ LaneMask place_rays_kernel(
         if ((lanes >> lane & ((LaneMask{1} << hn::Lanes(Doubles())) - 1)) != 0)
             place_part(frame, limit, world_reach, local_start, lanes, lane, placed);
     frame.slack = static_cast<float>(std::max(placed.slack * (1 + 0x1p-20), least_slack));
+    frame.double_slack =
+        static_cast<float>(std::max(placed.slack - least_slack, 0.0) * (1 + 0x1p-20));
     frame.behind = static_cast<float>(placed.behind * (1 + 0x1p-20));
     placed.strange &= lanes;
     for (LaneMask rest = placed.strange; rest != 0; rest &= rest - 1) {
@@ -222,6 +224,7 @@ LaneMask place_rays_kernel(
         frame.start_t[lane] = 0;
         frame.speed[lane] = 0;
         frame.slack = static_cast<float>(largest_slack);
+        frame.double_slack = frame.slack;
     }
     return (placed.touching & lanes) | placed.strange;
 }

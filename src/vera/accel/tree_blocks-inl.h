@@ -50,7 +50,8 @@ HWY_INLINE TestedRays<D> one_ray(D d, const Frame& frame, std::size_t lane) {
          hn::Set(d, frame.inverse[1][lane]),
          hn::Set(d, frame.inverse[2][lane])},
         hn::Set(d, frame.limit[lane]),
-        frame.slack};
+        frame.slack,
+        frame.double_slack};
 }
 
 template <typename D>
@@ -66,7 +67,8 @@ HWY_INLINE TestedRays<D> rays_from(D d, const Frame& frame, std::size_t lane) {
          hn::LoadU(d, frame.inverse[1].data() + lane),
          hn::LoadU(d, frame.inverse[2].data() + lane)},
         hn::LoadU(d, frame.limit.data() + lane),
-        frame.slack};
+        frame.slack,
+        frame.double_slack};
 }
 
 /// How far behind the distance by which something is surely met that may lie which has to be told
@@ -173,7 +175,7 @@ HWY_NOINLINE void meet_element(
             continue;
         const auto rays = rays_from(d, frame, lane);
         // Most are passed by.
-        if ((bits_of(d, may_meet(d, rays, OfKind, values)) & lanes >> lane) != 0)
+        if ((bits_of(d, may_come_near(d, rays, OfKind, values)) & lanes >> lane) != 0)
             take_meeting(d, meeting(d, rays, OfKind, values), lane, met);
     }
 }
@@ -192,7 +194,7 @@ HWY_NOINLINE void meet_block(
         hn::Vec<Elements> values[value_count(OfKind)];
         for (std::size_t j = 0; j < value_count(OfKind); ++j)
             values[j] = hn::LoadU(d, rows[1 + j].data() + i);
-        if ((bits_of(d, may_meet(d, ray, OfKind, values)) & present >> i) != 0)
+        if ((bits_of(d, may_come_near(d, ray, OfKind, values)) & present >> i) != 0)
             take_meeting(d, meeting(d, ray, OfKind, values), i, met);
     }
 }
@@ -289,19 +291,16 @@ HWY_INLINE void copy(const std::array<float, packet_size>& from, FloatRow& to) {
         hn::StoreU(hn::LoadU(d, from.data() + i), d, to.data() + i);
 }
 
-/// Whether elements of the kind may wait to be decided: what is opaque may end a search of what
-/// lets light through, and where meeting() does not tell by when elements are surely met, what lies
-/// behind would not be left out meanwhile.
-constexpr bool may_wait(Purpose purpose, ElementRecord::Kind kind) {
-    if (purpose == Purpose::transmittance)
-        return false;
+/// Whether elements of the kind may wait to be decided: where meeting() does not tell by when they
+/// are surely met, what lies behind would not be left out meanwhile.
+constexpr bool may_wait(ElementRecord::Kind kind) {
     switch (kind) {
     case ElementRecord::Kind::sphere:
     case ElementRecord::Kind::triangle:
     case ElementRecord::Kind::quadrangle:
+    case ElementRecord::Kind::mantle:
         return true;
     case ElementRecord::Kind::box:
-    case ElementRecord::Kind::mantle:
     case ElementRecord::Kind::cylinder:
     case ElementRecord::Kind::call:
         break;
@@ -326,15 +325,15 @@ inline void take_met(
     if ((may & starting) != 0)
         may &= ~(starting & leaving_element(rows, kind, i, frame));
     const LaneMask sure = met.sure & may & ~starting;
-    if (query.purpose == Purpose::any) {
+    if (query.purpose == Purpose::nearest) {
+        lower_limits(frame, sure, met.far);
+    } else if (sure != 0 && ends_search(query, frame, element)) {
         block(query, frame, sure);
         may &= ~sure;
-    } else if (query.purpose == Purpose::nearest) {
-        lower_limits(frame, sure, met.far);
     }
     if (may == 0)
         return;
-    if (!may_wait(query.purpose, kind))
+    if (!may_wait(kind))
         return test_exactly(query, frame, element, may);
     make_room_for_candidate(query, frame);
     copy(met.near, frame.candidates.near[frame.candidates.count]);
@@ -380,12 +379,12 @@ inline void take_met_alone(
         if (leaves_element(rows, kind, i, frame, lane))
             return;
     } else if ((met.sure >> i & 1U) != 0) {
-        if (query.purpose == Purpose::any)
-            return block(query, frame, bit_of(lane));
         if (query.purpose == Purpose::nearest)
             frame.limit[lane] = std::min(frame.limit[lane], met.far[i] + margin_behind(frame));
+        else if (ends_search(query, frame, element))
+            return block(query, frame, bit_of(lane));
     }
-    if (!may_wait(query.purpose, kind))
+    if (!may_wait(kind))
         return test_exactly(query, frame, element, bit_of(lane));
     make_room_for_candidate(query, frame);
     frame.candidates.near[frame.candidates.count][lane] = met.near[i];

@@ -34,6 +34,7 @@ constexpr std::size_t value_count(ElementRecord::Kind kind) {
     case ElementRecord::Kind::quadrangle:
         return 11;
     case ElementRecord::Kind::mantle:
+        return 9;
     case ElementRecord::Kind::cylinder:
         return 8;
     case ElementRecord::Kind::box:
