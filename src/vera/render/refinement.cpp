@@ -42,10 +42,23 @@ bool is_thin(const Window& window, const Seen& one) {
     return !shows(window, one, 5);
 }
 
+/// The surface that more than half of the places of the window show, if there is one: each place of
+/// another surface has cancelled one of its own at most (Boyer and Moore 1991).
+template <typename Window>
+const Seen& commonest(const Window& window) {
+    const Seen* candidate = window.front();
+    int lead = 0;
+    for (const Seen* one : window) {
+        if (lead == 0)
+            candidate = one;
+        lead += same_surface(*candidate, *one) ? 1 : -1;
+    }
+    return *candidate;
+}
+
 template <typename Window>
 Refinement refinement_of_thin(const Window& window) {
-    const bool is_plain = std::any_of(
-        window.begin(), window.end(), [&](const Seen* one) { return shows(window, *one, 13); });
+    const bool is_plain = shows(window, commonest(window), 13);
     return is_plain ? Refinement::thin_alone : Refinement::thin;
 }
 
