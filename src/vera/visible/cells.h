@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "vera/exact/depth_plane.h"
+#include "vera/visible/screen_scene.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace vera {
+
+/// The picture cut into square cells, each with the triangles that touch it (Franklin 1980). What
+/// lies behind a triangle that covers a cell is left out there.
+struct Cells {
+    int shift = screen_bits; ///< a cell is 2^shift steps wide and high
+    std::int32_t per_side = 1;
+    std::vector<std::uint32_t> starts;    ///< cell i has the triangles [starts[i]] to [starts[i + 1]]
+    std::vector<std::uint32_t> triangles; ///< in ascending order within a cell
+    std::vector<std::int64_t> blocked;    ///< what is less near is hidden everywhere in the cell
+
+    std::int32_t cell_of(std::int32_t coordinate) const {
+        return std::min(coordinate >> shift, per_side - 1);
+    }
+
+    std::size_t number(std::int32_t column, std::int32_t row) const {
+        return static_cast<std::size_t>(row) * static_cast<std::size_t>(per_side)
+            + static_cast<std::size_t>(column);
+    }
+
+    std::span<const std::uint32_t> triangles_of(std::size_t cell) const {
+        return std::span(triangles).subspan(starts[cell], starts[cell + 1] - starts[cell]);
+    }
+};
+
+/// planes[i] is that of triangle i.
+Cells cells_of(const ScreenScene& scene, std::span<const DepthPlane> planes);
+
+/// Calls visit(number of the cell) for the cells that the segment from a to b touches, until that
+/// returns false; true where it never did.
+template <typename Visit>
+bool for_each_cell_along(const Cells& cells, ScreenPoint a, ScreenPoint b, const Visit& visit) {
+    const ScreenStep whole = step(a, b);
+    const bool by_columns = (whole.x < 0 ? -whole.x : whole.x) >= (whole.y < 0 ? -whole.y : whole.y);
+    // In axes along which the segment is longer, and across.
+    const auto along = [&](ScreenPoint p) { return by_columns ? p.x : p.y; };
+    const auto across = [&](ScreenPoint p) { return by_columns ? p.y : p.x; };
+    const ScreenPoint low = along(a) <= along(b) ? a : b;
+    const ScreenPoint high = along(a) <= along(b) ? b : a;
+    const std::int64_t length = along(high) - along(low);
+    const std::int64_t rise = across(high) - across(low);
+    const auto visit_run = [&](std::int32_t slice, std::int64_t from, std::int64_t to) {
+        // A segment on the border of two rows of cells touches both.
+        const std::int64_t lowest = std::max<std::int64_t>(std::min(from, to) - 1, 0);
+        const std::int64_t highest = std::max(from, to) + 1;
+        const std::int32_t last =
+            cells.cell_of(static_cast<std::int32_t>(std::min<std::int64_t>(highest, screen_size)));
+        for (std::int32_t i = cells.cell_of(static_cast<std::int32_t>(lowest)); i <= last; ++i)
+            if (!visit(by_columns ? cells.number(slice, i) : cells.number(i, slice)))
+                return false;
+        return true;
+    };
+    const std::int32_t last = cells.cell_of(along(high));
+    for (std::int32_t slice = cells.cell_of(along(low)); slice <= last; ++slice) {
+        const std::int64_t enters =
+            std::max<std::int64_t>(along(low), std::int64_t{slice} << cells.shift);
+        const std::int64_t leaves =
+            std::min<std::int64_t>(along(high), std::int64_t{slice + 1} << cells.shift);
+        const auto height = [&](std::int64_t at) {
+            return length == 0 ? across(low) : across(low) + rise * (at - along(low)) / length;
+        };
+        if (!visit_run(slice, height(enters), height(leaves)))
+            return false;
+    }
+    return true;
+}
+
+} // namespace vera

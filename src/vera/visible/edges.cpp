@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vera/visible/edges.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace vera {
+
+ScreenEdges screen_edges(const ScreenScene& scene) {
+    struct Side {
+        std::uint32_t end;
+        std::uint32_t triangle;
+        std::uint32_t number; ///< of the side in its triangle
+    };
+
+    // In groups by their first vertex, which are short.
+    std::vector<std::uint32_t> starts(scene.vertices.size() + 1);
+    const auto for_each_side = [&](const auto& visit) {
+        for (std::uint32_t i = 0; i < scene.triangles.size(); ++i)
+            for (std::uint32_t side = 0; side < 3; ++side) {
+                const auto& vertices = scene.triangles[i].vertices;
+                const std::uint32_t from = vertices[side];
+                const std::uint32_t to = vertices[(side + 1) % 3];
+                visit(std::min(from, to), Side{std::max(from, to), i, side});
+            }
+    };
+    for_each_side([&](std::uint32_t begin, const Side&) { ++starts[begin + 1]; });
+    for (std::size_t i = 1; i < starts.size(); ++i)
+        starts[i] += starts[i - 1];
+    std::vector<Side> sides(starts.back());
+    std::vector<std::uint32_t> next(starts.begin(), starts.end() - 1);
+    for_each_side([&](std::uint32_t begin, const Side& side) { sides[next[begin]++] = side; });
+
+    ScreenEdges result;
+    result.of_triangle.resize(scene.triangles.size());
+    for (std::uint32_t begin = 0; begin + 1 < starts.size(); ++begin) {
+        const auto first = sides.begin() + starts[begin];
+        const auto last = sides.begin() + starts[begin + 1];
+        std::sort(first, last, [](const Side& a, const Side& b) {
+            return a.end != b.end ? a.end < b.end : a.triangle < b.triangle;
+        });
+        for (auto side = first; side != last; ++side) {
+            if (side == first || side->end != (side - 1)->end)
+                result.edges.push_back({begin, side->end});
+            result.of_triangle[side->triangle][side->number] =
+                static_cast<std::uint32_t>(result.edges.size() - 1);
+        }
+    }
+    return result;
+}
+
+} // namespace vera

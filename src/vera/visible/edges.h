@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "vera/visible/screen_scene.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace vera {
+
+/// The sides of triangles, each once for all triangles that have it between the same vertices.
+struct ScreenEdges {
+    struct Edge {
+        std::uint32_t begin = 0; ///< vertices, the smaller number first
+        std::uint32_t end = 0;
+    };
+
+    std::vector<Edge> edges;
+    /// Of each triangle, the edge from its corner i to the one that follows.
+    std::vector<std::array<std::uint32_t, 3>> of_triangle;
+};
+
+ScreenEdges screen_edges(const ScreenScene& scene);
+
+} // namespace vera

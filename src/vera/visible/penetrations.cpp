@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vera/visible/penetrations.h"
+
+#include "vera/visible/edges.h"
+#include "vera/visible/front_order.h"
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace vera {
+
+namespace {
+
+constexpr std::uint32_t no_vertex = ~std::uint32_t{0};
+
+/// The new corners on the sides of a triangle, or no_vertex.
+using SideCuts = std::array<std::uint32_t, 3>;
+
+ScreenVertex between(const ScreenVertex& a, const ScreenVertex& b, double part) {
+    const auto mixed = [&](auto from, auto to) {
+        const auto begin = static_cast<double>(from);
+        return std::floor(begin + part * (static_cast<double>(to) - begin) + 0.5);
+    };
+    return {
+        {static_cast<std::int32_t>(mixed(a.point.x, b.point.x)),
+         static_cast<std::int32_t>(mixed(a.point.y, b.point.y))},
+        static_cast<std::int64_t>(mixed(a.nearness, b.nearness))};
+}
+
+/// Cuts edges, each once at most.
+class EdgeCuts {
+public:
+    EdgeCuts(ScreenScene& scene, const ScreenEdges& edges)
+        : scene_(scene)
+        , edges_(edges)
+        , cuts_(edges.edges.size(), no_vertex) {}
+
+    /// Cuts the triangle's sides where the other's plane passes them. Nothing where one of them was
+    /// cut already.
+    void cut(std::uint32_t triangle, const NearnessSlope& other) {
+        const std::array<ScreenVertex, 3> corners = corners_of(scene_, scene_.triangles[triangle]);
+        const std::array<std::uint32_t, 3>& sides = edges_.of_triangle[triangle];
+        std::array<double, 3> ahead;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const ScreenPoint point = corners[i].point;
+            ahead[i] = static_cast<double>(corners[i].nearness)
+                - other.at({static_cast<double>(point.x), static_cast<double>(point.y)});
+        }
+        std::array<std::optional<ScreenVertex>, 3> found;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::size_t next = (i + 1) % 3;
+            if (ahead[i] * ahead[next] >= 0)
+                continue;
+            if (cuts_[sides[i]] != no_vertex)
+                return;
+            const ScreenVertex at =
+                between(corners[i], corners[next], ahead[i] / (ahead[i] - ahead[next]));
+            // At a corner the side is passed already.
+            if (at.point != corners[i].point && at.point != corners[next].point)
+                found[i] = at;
+        }
+        for (std::size_t i = 0; i < 3; ++i)
+            if (found[i]) {
+                cuts_[sides[i]] = static_cast<std::uint32_t>(scene_.vertices.size());
+                scene_.vertices.push_back(*found[i]);
+            }
+    }
+
+    SideCuts of_triangle(std::uint32_t triangle) const {
+        const std::array<std::uint32_t, 3>& sides = edges_.of_triangle[triangle];
+        return {cuts_[sides[0]], cuts_[sides[1]], cuts_[sides[2]]};
+    }
+
+private:
+    ScreenScene& scene_;
+    const ScreenEdges& edges_;
+    std::vector<std::uint32_t> cuts_; ///< the vertex on each edge
+};
+
+/// Adds the parts of a triangle whose sides have these new corners.
+void add_parts(ScreenScene& scene, const ScreenTriangle& triangle, const SideCuts& cuts) {
+    const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        add_triangle(scene, {a, b, c}, triangle.source);
+    };
+    const auto& corners = triangle.vertices;
+    std::size_t count = 0;
+    std::size_t first = 0; // the side with which the cut sides begin
+    for (std::size_t i = 0; i < 3; ++i) {
+        count += cuts[i] != no_vertex ? 1 : 0;
+        if (cuts[i] != no_vertex && cuts[(i + 2) % 3] == no_vertex)
+            first = i;
+    }
+    const std::uint32_t a = corners[first];
+    const std::uint32_t b = corners[(first + 1) % 3];
+    const std::uint32_t c = corners[(first + 2) % 3];
+    const std::uint32_t ab = cuts[first];
+    const std::uint32_t bc = cuts[(first + 1) % 3];
+    const std::uint32_t ca = cuts[(first + 2) % 3];
+    switch (count) {
+    case 0:
+        return add(a, b, c);
+    case 1:
+        add(a, ab, c);
+        return add(ab, b, c);
+    case 2:
+        add(ab, b, bc);
+        add(a, ab, bc);
+        return add(a, bc, c);
+    default:
+        add(a, ab, ca);
+        add(ab, b, bc);
+        add(bc, c, ca);
+        return add(ab, bc, ca);
+    }
+}
+
+} // namespace
+
+void cut_penetrations(
+    ScreenScene& scene, std::span<const std::pair<std::uint32_t, std::uint32_t>> penetrating) {
+    const ScreenEdges edges = screen_edges(scene);
+    EdgeCuts cuts(scene, edges);
+    const auto slope_of = [&](std::uint32_t triangle) {
+        return nearness_slope(depth_plane(corners_of(scene, scene.triangles[triangle])));
+    };
+    for (const auto& [a, b] : penetrating) {
+        cuts.cut(a, slope_of(b));
+        cuts.cut(b, slope_of(a));
+    }
+    std::vector<ScreenTriangle> triangles;
+    triangles.swap(scene.triangles);
+    scene.triangles.reserve(triangles.size() + 4 * penetrating.size());
+    for (std::uint32_t i = 0; i < triangles.size(); ++i)
+        add_parts(scene, triangles[i], cuts.of_triangle(i));
+}
+
+WholePieces whole_pieces(ScreenScene& scene, const Progress& progress, const CancelFlag* cancel) {
+    constexpr int most_rounds = 24;
+    WholePieces result;
+    while (true) {
+        result.pieces = cell_raster(scene, progress, cancel);
+        result.left = result.pieces.penetrating.size();
+        if (result.left == 0 || result.rounds == most_rounds)
+            return result;
+        cut_penetrations(scene, result.pieces.penetrating);
+        ++result.rounds;
+    }
+}
+
+} // namespace vera

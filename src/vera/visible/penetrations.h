@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "vera/base/parallel.h"
+#include "vera/visible/cell_raster.h"
+#include "vera/visible/screen_scene.h"
+
+#include <cstddef>
+#include <span>
+#include <utility>
+
+namespace vera {
+
+/// Cuts triangles that pass through each other where they do, to within a step of the grid, and
+/// those beside them that share a side which was cut. Of a triangle with several partners only some
+/// cuts are made: ask again. Triangle numbers change.
+void cut_penetrations(
+    ScreenScene& scene, std::span<const std::pair<std::uint32_t, std::uint32_t>> penetrating);
+
+/// What is seen of the scene, and `left`, how many pairs still pass through each other: 0 but for
+/// scenes in which hundreds do at one place.
+struct WholePieces {
+    VisiblePieces pieces;
+    std::size_t left = 0;
+    int rounds = 1;
+};
+
+/// cell_raster() of the scene after everything was cut in it that is seen to penetrate.
+WholePieces whole_pieces(
+    ScreenScene& scene, const Progress& progress = {}, const CancelFlag* cancel = nullptr);
+
+} // namespace vera

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "vera/math/transform.h"
+#include "vera/scene/camera.h"
+#include "vera/scene/facets.h"
+#include "vera/visible/screen_scene.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+namespace vera {
+
+/// A point as a camera sees it: at x / w of the picture's width from the left, and y / w of its
+/// height from below, if w is positive.
+struct ImagePoint {
+    double x = 0;
+    double y = 0;
+    double w = 1;     ///< 1 in the image plane, 0 in that of the view point; of parallel rays 1
+    double depth = 0; ///< of parallel rays: how far behind the image plane, in unit directions
+};
+
+/// Maps points to where a camera sees them.
+class CameraMap {
+public:
+    /// Throws InputError for a camera whose corners are on one line, or that looks along its image.
+    explicit CameraMap(const Camera& camera);
+
+    ImagePoint image_point(Vec3 point) const;
+
+    bool is_parallel() const { return is_parallel_; }
+
+    /// How large a part of the picture's width is, at the point, in the scene's units; never 0.
+    double size_of(double part_of_width, Vec3 point) const;
+
+private:
+    Affine3 from_world_;
+    bool is_parallel_ = false;
+    double width_ = 0; ///< of the picture in the image plane
+};
+
+/// The facets as the camera sees them: cut at the frame and before the viewer, and moved to the
+/// grid, of which y grows downward. sources[i] is that of facet i. Points that coincide are one.
+ScreenScene
+screen_scene(const Facets& facets, const CameraMap& map, std::span<const std::uint32_t> sources);
+
+} // namespace vera

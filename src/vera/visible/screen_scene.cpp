@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vera/visible/screen_scene.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace vera {
+
+namespace {
+
+/// Lets a zero follow each of the lower 32 bits.
+constexpr std::uint64_t spread(std::uint64_t bits) {
+    bits = (bits | (bits << 16U)) & 0x0000ffff0000ffffU;
+    bits = (bits | (bits << 8U)) & 0x00ff00ff00ff00ffU;
+    bits = (bits | (bits << 4U)) & 0x0f0f0f0f0f0f0f0fU;
+    bits = (bits | (bits << 2U)) & 0x3333333333333333U;
+    return (bits | (bits << 1U)) & 0x5555555555555555U;
+}
+
+std::uint64_t morton_code(const std::array<ScreenVertex, 3>& corners) {
+    std::uint64_t x = 0;
+    std::uint64_t y = 0;
+    for (const ScreenVertex& corner : corners) {
+        x += static_cast<std::uint64_t>(corner.point.x);
+        y += static_cast<std::uint64_t>(corner.point.y);
+    }
+    return spread(x) | (spread(y) << 1U);
+}
+
+} // namespace
+
+void add_triangle(
+    ScreenScene& scene, std::array<std::uint32_t, 3> vertices, std::uint32_t source) {
+    const auto point = [&](std::size_t i) { return scene.vertices[vertices[i]].point; };
+    const std::int64_t area = orientation(point(0), point(1), point(2));
+    if (area == 0)
+        return;
+    if (area < 0)
+        std::swap(vertices[1], vertices[2]);
+    scene.triangles.push_back({vertices, source});
+}
+
+void sort_by_place(ScreenScene& scene) {
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> order(scene.triangles.size());
+    for (std::uint32_t i = 0; i < order.size(); ++i)
+        order[i] = {morton_code(corners_of(scene, scene.triangles[i])), i};
+    std::sort(order.begin(), order.end());
+
+    constexpr std::uint32_t unused = ~std::uint32_t{0};
+    std::vector<std::uint32_t> numbers(scene.vertices.size(), unused);
+    std::vector<ScreenVertex> vertices;
+    std::vector<ScreenTriangle> triangles;
+    vertices.reserve(scene.vertices.size());
+    triangles.reserve(scene.triangles.size());
+    for (const auto& [code, i] : order) {
+        ScreenTriangle triangle = scene.triangles[i];
+        for (std::uint32_t& vertex : triangle.vertices) {
+            if (numbers[vertex] == unused) {
+                numbers[vertex] = static_cast<std::uint32_t>(vertices.size());
+                vertices.push_back(scene.vertices[vertex]);
+            }
+            vertex = numbers[vertex];
+        }
+        triangles.push_back(triangle);
+    }
+    scene.vertices = std::move(vertices);
+    scene.triangles = std::move(triangles);
+}
+
+} // namespace vera

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "vera/exact/depth_plane.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace vera {
+
+/// Stands for no source: the background.
+constexpr std::uint32_t no_source = ~std::uint32_t{0};
+
+/// A triangle of the picture. Its corners go round to the left, and it has an area.
+struct ScreenTriangle {
+    std::array<std::uint32_t, 3> vertices = {}; ///< in ScreenScene::vertices
+    std::uint32_t source = 0; ///< of what it is a part: of coincident ones the smaller is in front
+};
+
+/// A scene as the picture shows it: all within the frame, moved to the grid.
+struct ScreenScene {
+    std::vector<ScreenVertex> vertices;
+    std::vector<ScreenTriangle> triangles;
+    double cut_nearness = 0; ///< what was so much nearer than the image plane was cut away; or 0
+};
+
+/// The points of the triangle's corners.
+inline std::array<ScreenVertex, 3>
+corners_of(const ScreenScene& scene, const ScreenTriangle& triangle) {
+    return {
+        scene.vertices[triangle.vertices[0]],
+        scene.vertices[triangle.vertices[1]],
+        scene.vertices[triangle.vertices[2]]};
+}
+
+/// Adds a triangle with these corners, turned to the left. One without an area is left out: it is
+/// seen edge-on.
+void add_triangle(
+    ScreenScene& scene, std::array<std::uint32_t, 3> vertices, std::uint32_t source);
+
+/// Sorts the triangles along a curve that fills the picture (Morton 1966), and the vertices by who
+/// uses them first: neighbours then stand close together in memory.
+void sort_by_place(ScreenScene& scene);
+
+} // namespace vera

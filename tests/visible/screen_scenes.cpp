@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "visible/screen_scenes.h"
+
+#include <algorithm>
+
+namespace vera::testing {
+
+namespace {
+
+std::uint32_t add_vertex(ScreenScene& scene, ScreenPoint point, std::int64_t nearness) {
+    scene.vertices.push_back({point, nearness});
+    return static_cast<std::uint32_t>(scene.vertices.size() - 1);
+}
+
+} // namespace
+
+ScreenScene layers(std::uint64_t seed, std::size_t count, std::int32_t crossings_per_side) {
+    std::mt19937_64 random(seed);
+    const auto below = [&](std::int64_t end) {
+        return static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(end));
+    };
+    ScreenScene scene;
+    const std::int64_t thickness = depth_size / static_cast<std::int64_t>(count + 1);
+    const std::int32_t spacing = screen_size / crossings_per_side;
+    while (scene.triangles.size() < count) {
+        const std::size_t layer = scene.triangles.size();
+        const bool slants = below(2) == 0;
+        std::array<std::uint32_t, 3> vertices;
+        for (std::uint32_t& vertex : vertices) {
+            const ScreenPoint point = {
+                static_cast<std::int32_t>(below(crossings_per_side + 1)) * spacing,
+                static_cast<std::int32_t>(below(crossings_per_side + 1)) * spacing};
+            const std::int64_t within = slants ? below(thickness) : 0;
+            vertex = add_vertex(
+                scene, point, static_cast<std::int64_t>(layer) * thickness + within);
+        }
+        // Numbers that do not go with the order in depth.
+        const auto source = static_cast<std::uint32_t>(layer * 7919 % 1009);
+        add_triangle(scene, vertices, source);
+        if (scene.triangles.size() > layer && below(4) == 0)
+            add_triangle(scene, vertices, source + 1009);
+    }
+    return scene;
+}
+
+ScreenScene scattered(std::uint64_t seed, std::size_t count, std::int32_t size) {
+    std::mt19937_64 random(seed);
+    const auto below = [&](std::int64_t end) {
+        return static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(end));
+    };
+    ScreenScene scene;
+    const std::int64_t thickness = depth_size / static_cast<std::int64_t>(count + 1);
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::int64_t x = below(screen_size);
+        const std::int64_t y = below(screen_size);
+        std::array<std::uint32_t, 3> vertices;
+        for (std::uint32_t& vertex : vertices) {
+            const ScreenPoint point = {
+                static_cast<std::int32_t>(
+                    std::clamp<std::int64_t>(x + below(size) - size / 2, 0, screen_size)),
+                static_cast<std::int32_t>(
+                    std::clamp<std::int64_t>(y + below(size) - size / 2, 0, screen_size))};
+            vertex = add_vertex(
+                scene, point, static_cast<std::int64_t>(i) * thickness + below(thickness));
+        }
+        add_triangle(scene, vertices, static_cast<std::uint32_t>(i * 7919 % count));
+    }
+    return scene;
+}
+
+ScreenScene terrain(std::uint64_t seed, std::int32_t columns) {
+    std::mt19937_64 random(seed);
+    const auto below = [&](std::int64_t end) {
+        return static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(end));
+    };
+    ScreenScene scene;
+    // Seen at a grazing angle: a row is hidden by what rises before it.
+    const std::int32_t width = screen_size / columns;
+    for (std::int32_t row = 0; row <= columns; ++row)
+        for (std::int32_t column = 0; column <= columns; ++column) {
+            const std::int64_t y = std::int64_t{row} * width / 4 + below(3) * width;
+            add_vertex(
+                scene,
+                {column * width,
+                 static_cast<std::int32_t>(std::min<std::int64_t>(y, screen_size))},
+                depth_size - std::int64_t{row} * (depth_size / (columns + 1)));
+        }
+    const auto vertex = [&](std::int32_t column, std::int32_t row) {
+        return static_cast<std::uint32_t>(row * (columns + 1) + column);
+    };
+    std::uint32_t source = 0;
+    for (std::int32_t row = 0; row < columns; ++row)
+        for (std::int32_t column = 0; column < columns; ++column) {
+            add_triangle(
+                scene,
+                {vertex(column, row), vertex(column + 1, row), vertex(column, row + 1)},
+                source++);
+            add_triangle(
+                scene,
+                {vertex(column + 1, row), vertex(column + 1, row + 1), vertex(column, row + 1)},
+                source++);
+        }
+    return scene;
+}
+
+} // namespace vera::testing

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vera/visible/visible_map.h"
+
+#include "vera/base/parallel.h"
+#include "vera/visible/brute_force.h"
+#include "vera/visible/penetrations.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <random>
+#include <string>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include "visible/screen_scenes.h"
+
+namespace vera {
+namespace {
+
+using testing::layers;
+using testing::scattered;
+using testing::terrain;
+
+/// How often each ring goes round the point, added up by source.
+std::map<std::uint32_t, int> turns_about(const VisibleMap& map, double x, double y) {
+    std::map<std::uint32_t, int> turns;
+    for (const VisibleMap::Ring& ring : map.rings) {
+        const auto vertices = map.vertices_of(ring);
+        int of_ring = 0;
+        for (std::size_t i = 0; i < vertices.size(); ++i) {
+            const RationalPoint& a = map.vertices[vertices[i]];
+            const RationalPoint& b = map.vertices[vertices[(i + 1) % vertices.size()]];
+            const double side = (b.x() - a.x()) * (y - a.y()) - (b.y() - a.y()) * (x - a.x());
+            if (a.y() <= y && b.y() > y && side > 0)
+                ++of_ring;
+            else if (a.y() > y && b.y() <= y && side < 0)
+                --of_ring;
+        }
+        if (of_ring != 0 && (turns[ring.source] += of_ring) == 0)
+            turns.erase(ring.source);
+    }
+    return turns;
+}
+
+double area_of(const VisibleMap& map) {
+    double area = 0;
+    for (const VisibleMap::Ring& ring : map.rings)
+        area += 0.5 * doubled_area(map, ring);
+    return area;
+}
+
+/// The map shows at each of the points what asking every triangle tells.
+void expect_like_brute_force(
+    const ScreenScene& scene, std::uint64_t seed, int points, const std::string& what) {
+    const VisiblePieces pieces = cell_raster(scene);
+    EXPECT_TRUE(pieces.penetrating.empty()) << what;
+    const VisibleMap map = visible_map(scene, pieces);
+    EXPECT_EQ(map.joined, 0U) << what;
+    EXPECT_LE(area_of(map), std::ldexp(1.0, 2 * screen_bits) * (1 + 1e-12)) << what;
+    std::mt19937_64 random(seed);
+    for (int i = 0; i < points && !::testing::Test::HasFailure(); ++i) {
+        const auto x = static_cast<std::int64_t>(random() % (2 * std::uint64_t{screen_size})) | 1;
+        const auto y = static_cast<std::int64_t>(random() % (2 * std::uint64_t{screen_size})) | 1;
+        const SeenAt expected = seen_at(scene, x, y);
+        if (expected.has_side_at)
+            continue;
+        const auto turns = turns_about(map, 0.5 * static_cast<double>(x), 0.5 * static_cast<double>(y));
+        if (expected.source == no_source) {
+            EXPECT_TRUE(turns.empty()) << what << " at " << x << " " << y;
+            continue;
+        }
+        ASSERT_EQ(turns.size(), 1U) << what << " at " << x << " " << y;
+        EXPECT_EQ(turns.begin()->first, expected.source) << what << " at " << x << " " << y;
+        EXPECT_EQ(turns.begin()->second, 1) << what << " at " << x << " " << y;
+    }
+}
+
+TEST(VisibleMap, ShowsLikeBruteForceWhatLiesInLayersOnFewPoints) {
+    for (std::uint64_t seed = 0; seed < 300 && !HasFailure(); ++seed)
+        expect_like_brute_force(
+            layers(seed, 1 + seed % 40, std::int32_t{1} << (1 + seed % 4)),
+            seed,
+            60,
+            "seed " + std::to_string(seed));
+}
+
+TEST(VisibleMap, ShowsLikeBruteForceWhatIsScattered) {
+    for (std::uint64_t seed = 0; seed < 12 && !HasFailure(); ++seed)
+        expect_like_brute_force(
+            scattered(seed, 400, screen_size >> (seed % 6)),
+            seed,
+            300,
+            "seed " + std::to_string(seed));
+}
+
+TEST(VisibleMap, ShowsLikeBruteForceATerrain) {
+    for (std::uint64_t seed = 0; seed < 6 && !HasFailure(); ++seed)
+        expect_like_brute_force(
+            terrain(seed, 4 << (seed % 4)), seed, 300, "seed " + std::to_string(seed));
+}
+
+TEST(VisibleMap, IsTheSameForAnyNumberOfThreadsAndOrderOfTriangles) {
+    ScreenScene scene = scattered(3, 3000, screen_size / 16);
+    sort_by_place(scene);
+    const VisiblePieces expected = [&] {
+        const ThreadLimit one(1);
+        return cell_raster(scene);
+    }();
+    const VisiblePieces found = cell_raster(scene);
+    ASSERT_EQ(found.pieces.size(), expected.pieces.size());
+    for (std::size_t i = 0; i < found.pieces.size(); ++i) {
+        EXPECT_EQ(found.pieces[i].from, expected.pieces[i].from);
+        EXPECT_EQ(found.pieces[i].to, expected.pieces[i].to);
+        EXPECT_EQ(found.pieces[i].left, expected.pieces[i].left);
+        EXPECT_EQ(found.pieces[i].right, expected.pieces[i].right);
+    }
+    const double area = area_of(visible_map(scene, expected));
+    const ScreenScene unsorted = scattered(3, 3000, screen_size / 16);
+    EXPECT_NEAR(area_of(visible_map(unsorted, cell_raster(unsorted))) / area, 1, 1e-12);
+}
+
+TEST(VisibleMap, OfNothingIsEmptyAndOfOneTriangleIsItself) {
+    EXPECT_TRUE(visible_map({}, cell_raster({})).rings.empty());
+    ScreenScene scene;
+    scene.vertices = {
+        {{0, 0}, 5}, {{screen_size, 0}, 5}, {{0, screen_size}, 5}, {{screen_size, screen_size}, 9}};
+    add_triangle(scene, {0, 1, 2}, 4);
+    VisibleMap map = visible_map(scene, cell_raster(scene));
+    ASSERT_EQ(map.rings.size(), 1U);
+    EXPECT_EQ(map.rings[0].source, 4U);
+    EXPECT_EQ(map.rings[0].count, 3U);
+    EXPECT_EQ(doubled_area(map, map.rings[0]), std::ldexp(1.0, 2 * screen_bits));
+    // The other half of the frame, of the same source: one region of four corners.
+    add_triangle(scene, {1, 2, 3}, 4);
+    map = visible_map(scene, cell_raster(scene));
+    ASSERT_EQ(map.rings.size(), 1U);
+    EXPECT_EQ(map.rings[0].count, 4U);
+}
+
+TEST(VisibleMap, HoldsAThousandEdgesThroughOnePoint) {
+    ScreenScene scene;
+    const ScreenPoint middle = {screen_size / 2, screen_size / 2};
+    constexpr std::int32_t count = 500;
+    for (std::int32_t i = 0; i < count; ++i) {
+        // Slivers with their tip in the middle, each a bit nearer.
+        const auto first = static_cast<std::uint32_t>(scene.vertices.size());
+        const std::int32_t along = i * (screen_size / count);
+        scene.vertices.push_back({middle, i});
+        scene.vertices.push_back({{along, i % 2 == 0 ? 0 : screen_size}, i});
+        scene.vertices.push_back({{along + screen_size / count * 2 / 3, i % 2 == 0 ? 0 : screen_size}, i});
+        add_triangle(
+            scene, {first, first + 1, first + 2}, static_cast<std::uint32_t>(i));
+    }
+    expect_like_brute_force(scene, 1, 500, "star");
+    const VisibleMap map = visible_map(scene, cell_raster(scene));
+    EXPECT_EQ(map.rings.size(), std::size_t{count});
+}
+
+/// What is seen at the point and, if it is the same, some steps of the grid around it.
+std::optional<SeenAt>
+seen_around(const ScreenScene& scene, std::int64_t x_in_halves, std::int64_t y_in_halves) {
+    const SeenAt middle = seen_at(scene, x_in_halves, y_in_halves);
+    constexpr std::int64_t off = 8;
+    for (const auto& [x, y] : {std::pair{off, off}, {-off, off}, {off, -off}, {-off, -off}})
+        if (seen_at(scene, x_in_halves + x, y_in_halves + y).source != middle.source)
+            return std::nullopt;
+    return middle;
+}
+
+/// Triangles anywhere at any depth, which pass through each other.
+ScreenScene tangle(std::uint64_t seed, std::size_t count) {
+    std::mt19937_64 random(seed);
+    ScreenScene scene;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        for (int corner = 0; corner < 3; ++corner)
+            scene.vertices.push_back(
+                {{static_cast<std::int32_t>(random() % (screen_size + 1)),
+                  static_cast<std::int32_t>(random() % (screen_size + 1))},
+                 static_cast<std::int64_t>(random() % (depth_size + 1))});
+        add_triangle(scene, {3 * i, 3 * i + 1, 3 * i + 2}, i);
+    }
+    return scene;
+}
+
+TEST(VisibleMap, ShowsLikeBruteForceWhatPenetratesButForAFewSteps) {
+    for (std::uint64_t seed = 0; seed < 80 && !HasFailure(); ++seed) {
+        const ScreenScene scene = tangle(seed, 2 + seed % 30);
+        ScreenScene cut = scene;
+        const WholePieces whole = whole_pieces(cut);
+        EXPECT_EQ(whole.left, 0U) << "seed " << seed;
+        const VisibleMap map = visible_map(cut, whole.pieces);
+        std::mt19937_64 random(seed);
+        for (int i = 0; i < 100; ++i) {
+            const auto x = static_cast<std::int64_t>(random() % (2 * std::uint64_t{screen_size})) | 1;
+            const auto y = static_cast<std::int64_t>(random() % (2 * std::uint64_t{screen_size})) | 1;
+            const auto expected = seen_around(scene, x, y);
+            if (!expected)
+                continue;
+            const auto turns =
+                turns_about(map, 0.5 * static_cast<double>(x), 0.5 * static_cast<double>(y));
+            EXPECT_EQ(turns.size(), expected->source == no_source ? 0U : 1U) << "seed " << seed;
+            if (!turns.empty()) {
+                EXPECT_EQ(turns.begin()->first, expected->source) << "seed " << seed;
+                EXPECT_EQ(turns.begin()->second, 1) << "seed " << seed;
+            }
+        }
+    }
+}
+
+TEST(VisibleMap, TellsWhatPenetrates) {
+    ScreenScene scene;
+    scene.vertices = {
+        {{0, 0}, 0},
+        {{screen_size, 0}, depth_size},
+        {{0, screen_size}, 0},
+        {{100, 100}, depth_size / 2},
+        {{screen_size - 500, 300}, depth_size / 2},
+        {{200, screen_size / 2}, depth_size / 2}};
+    add_triangle(scene, {0, 1, 2}, 0);
+    add_triangle(scene, {3, 4, 5}, 1);
+    EXPECT_EQ(cell_raster(scene).penetrating.size(), 1U);
+}
+
+} // namespace
+} // namespace vera
