@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace vera {
+
+/// In pixels of the picture: x from its left, y from its top. Must be finite.
+struct DrawingPoint {
+    double x = 0;
+    double y = 0;
+
+    friend bool operator==(const DrawingPoint&, const DrawingPoint&) = default;
+};
+
+/// Red, green and blue as a screen shows them (sRGB).
+struct DrawingColor {
+    std::uint8_t r = 0;
+    std::uint8_t g = 0;
+    std::uint8_t b = 0;
+
+    friend bool operator==(const DrawingColor&, const DrawingColor&) = default;
+};
+
+/// An area of one colour, of any number of parts and holes. Its rings are closed (the first point
+/// need not be repeated), and holes run against the rings around them, so that the nonzero and the
+/// even-odd rule see the same area.
+struct FilledOutline {
+    std::string id = {};   ///< of the path in an SVG; may be empty
+    std::string name = {}; ///< for people: the path's title in an SVG; may be empty
+    /// What the area is part of. Consecutive outlines of one group are written as one group, which
+    /// has this for its name; outlines whose group is empty stand by themselves.
+    std::string group = {};
+    DrawingColor color = {};
+    std::vector<std::vector<DrawingPoint>> rings = {};
+    /// The parts of the border beyond which an outline lies that is painted later. Points of the
+    /// border, in its order; a part that goes on where the one before it ended is one with it.
+    std::vector<std::vector<DrawingPoint>> seams = {};
+};
+
+/// A line. Its class says why it is drawn ("silhouette", "crease", "hidden") and decides how.
+struct Stroke {
+    std::string line_class = {};
+    std::vector<DrawingPoint> points = {};
+    bool closed = false;
+};
+
+/// A vector picture: the background, on it the outlines in their order, on them the lines, one
+/// class after the other in the order in which the classes first occur. Texts are UTF-8; what is
+/// not is replaced.
+struct Drawing {
+    double width = 1; ///< in pixels, positive
+    double height = 1;
+    std::string title = {};
+    std::string description = {};
+    std::optional<DrawingColor> background = {};
+    std::vector<FilledOutline> fills = {};
+    std::vector<Stroke> strokes = {};
+};
+
+} // namespace vera

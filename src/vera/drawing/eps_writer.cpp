@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vera/drawing/document_text.h"
+#include "vera/drawing/page_content.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace vera {
+
+using namespace detail;
+
+void write_eps(const Drawing& drawing, const DrawingSettings& settings, std::string& bytes) {
+    const Lattice lattice(settings.precision);
+    const Layers content = layers(drawing, settings, lattice);
+    const PageSize page = page_size(drawing, settings);
+    const std::string width = decimal(page.width, 4);
+    const std::string height = decimal(page.height, 4);
+
+    bytes += fmt::format(
+        "%!PS-Adobe-3.0 EPSF-3.0\n"
+        "%%BoundingBox: 0 0 {} {}\n"
+        "%%HiResBoundingBox: 0 0 {} {}\n",
+        std::ceil(page.width),
+        std::ceil(page.height),
+        width,
+        height);
+    if (!drawing.title.empty())
+        bytes += "%%Title: " + plain_line(drawing.title) + "\n";
+    bytes += fmt::format(
+        "%%LanguageLevel: 2\n"
+        "%%EndComments\n"
+        "%%BeginProlog\n"
+        "32 dict begin\n"
+        // The operators of PDF. Both of its colours are the one of PostScript, whose fill and
+        // stroke leave no path behind either.
+        "/q{{gsave}}def/Q{{grestore}}def/cm{{6 array astore concat}}def\n"
+        "/rg{{setrgbcolor}}def/RG{{setrgbcolor}}def\n"
+        "/w{{setlinewidth}}def/J{{setlinecap}}def/j{{setlinejoin}}def/d{{setdash}}def\n"
+        "/re{{4 2 roll moveto 1 index 0 rlineto 0 exch rlineto neg 0 rlineto closepath}}def\n"
+        "/m{{moveto}}def/l{{lineto}}def/h{{closepath}}def/f{{fill}}def/S{{stroke}}def\n"
+        "%%EndProlog\n"
+        // Lines along the picture's border may not paint beyond it.
+        "gsave\n0 0 {} {} rectclip\n",
+        width,
+        height);
+    const LayerMarks marks = {
+        [](std::size_t, const std::string& name) { return "% " + plain_line(name) + "\n"; }, ""};
+    bytes += page_content(drawing, settings, lattice, content, marks);
+    bytes += "grestore\nend\n%%EOF\n";
+}
+
+} // namespace vera

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vera/drawing/page_content.h"
+
+#include <cstdint>
+#include <iterator>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace vera::detail {
+
+namespace {
+
+class PageWriter {
+public:
+    explicit PageWriter(const Lattice& lattice)
+        : lattice_(lattice) {}
+
+    /// From units of the lattice, counted from the top, to points, counted from the bottom.
+    void begin_page(PageSize page, double pixels_wide) {
+        const std::string scale =
+            decimal(page.width / (pixels_wide * lattice_.units_per_pixel()), 9 + lattice_.digits());
+        text_ += fmt::format("q\n{0} 0 0 -{0} 0 {1} cm\n", scale, decimal(page.height, 6));
+    }
+
+    void end_page() { text_ += "Q\n"; }
+
+    void write(const std::string& text) { text_ += text; }
+
+    void fill_picture(const Drawing& drawing) {
+        set_color(fill_color_, *drawing.background, "rg");
+        text_ += fmt::format("0 0 {} {} re\nf\n", length(drawing.width), length(drawing.height));
+    }
+
+    void fill(std::span<const SnappedPath> rings, DrawingColor color) {
+        set_color(fill_color_, color, "rg");
+        write_paths(rings);
+        text_ += "f\n";
+    }
+
+    /// A line style that stays until the next one.
+    void set_pen(double width, int cap, const std::vector<double>& dashes) {
+        text_ += fmt::format("{} w {} J 1 j [", length(width), cap);
+        for (const double& dash : dashes)
+            text_.append(&dash == dashes.data() ? "" : " ").append(length(dash));
+        text_ += "] 0 d\n";
+    }
+
+    void stroke(std::span<const SnappedPath> lines, DrawingColor color) {
+        set_color(stroke_color_, color, "RG");
+        write_paths(lines);
+        text_ += "S\n";
+    }
+
+    std::string take() { return std::move(text_); }
+
+private:
+    /// PDF has a color to fill and one to stroke with; PostScript has only the one set last.
+    void
+    set_color(std::optional<DrawingColor>& purpose, DrawingColor color, const char* operation) {
+        if (purpose != color || last_color_ != color)
+            text_ += components(color) + " " + operation + "\n";
+        purpose = last_color_ = color;
+    }
+
+    static std::string components(DrawingColor color) {
+        // Three digits tell 256 values apart.
+        const auto component = [](std::uint8_t value) { return decimal(value / 255.0, 3); };
+        return component(color.r) + " " + component(color.g) + " " + component(color.b);
+    }
+
+    void write_paths(std::span<const SnappedPath> paths) {
+        for (const SnappedPath& path : paths) {
+            char operation = 'm';
+            for (const SnappedPoint point : path.points) {
+                fmt::format_to(
+                    std::back_inserter(text_), "{} {} {}\n", point.x, point.y, operation);
+                operation = 'l';
+            }
+            if (path.closed)
+                text_ += "h\n";
+        }
+    }
+
+    std::string length(double pixels) const {
+        return decimal(pixels * lattice_.units_per_pixel(), 4);
+    }
+
+    const Lattice& lattice_;
+    std::string text_;
+    std::optional<DrawingColor> fill_color_;
+    std::optional<DrawingColor> stroke_color_;
+    std::optional<DrawingColor> last_color_; ///< of the two
+};
+
+} // namespace
+
+std::vector<std::string> layer_names(const Layers& layers) {
+    std::vector<std::string> names;
+    if (!layers.fills.empty())
+        names.emplace_back(fills_name);
+    for (const LineLayer& layer : layers.lines)
+        names.push_back(layer.name);
+    return names;
+}
+
+std::string page_content(
+    const Drawing& drawing,
+    const DrawingSettings& settings,
+    const Lattice& lattice,
+    const Layers& layers,
+    const LayerMarks& marks) {
+    constexpr int butt_cap = 0;
+    constexpr int round_cap = 1;
+    const std::vector<std::string> names = layer_names(layers);
+    std::size_t number = 0;
+
+    PageWriter page(lattice);
+    page.begin_page(page_size(drawing, settings), drawing.width);
+    if (drawing.background)
+        page.fill_picture(drawing);
+    if (!layers.fills.empty()) {
+        page.write(marks.begin(number, names[number]));
+        ++number;
+        page.set_pen(settings.seam_width, butt_cap, {});
+        for (const FilledPath& fill : layers.fills) {
+            page.fill(fill.rings, fill.outline->color);
+            if (!fill.seams.empty())
+                page.stroke(fill.seams, fill.outline->color);
+        }
+        page.write(marks.end);
+    }
+    for (const LineLayer& layer : layers.lines) {
+        page.write(marks.begin(number, names[number]));
+        ++number;
+        const LineStyle& style = layer.style;
+        page.set_pen(style.width, style.dashes.empty() ? round_cap : butt_cap, style.dashes);
+        for (const SnappedPath& line : layer.lines)
+            page.stroke({&line, 1}, style.color);
+        page.write(marks.end);
+    }
+    page.end_page();
+    return page.take();
+}
+
+} // namespace vera::detail

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vera/base/random.h"
+#include "vera/drawing/document_text.h"
+#include "vera/drawing/page_content.h"
+
+#include <cstdint>
+#include <stdexcept>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+namespace vera {
+
+namespace {
+
+using namespace detail;
+
+std::string deflated(const std::string& bytes) {
+    uLongf size = compressBound(bytes.size());
+    std::string packed(size, '\0');
+    const int result = compress2(
+        reinterpret_cast<Bytef*>(packed.data()),
+        &size,
+        reinterpret_cast<const Bytef*>(bytes.data()),
+        bytes.size(),
+        Z_DEFAULT_COMPRESSION);
+    if (result != Z_OK)
+        throw std::runtime_error("the memory does not suffice to compress a drawing");
+    packed.resize(size);
+    return packed;
+}
+
+/// 128 bits of the bytes, in hexadecimal: the same for the same document, and hardly for another.
+std::string digest(std::string_view bytes) {
+    std::uint64_t first = 1;
+    std::uint64_t second = 2;
+    for (const char byte : bytes) {
+        first = (first ^ static_cast<unsigned char>(byte)) * 0x100000001b3U; // FNV-1a
+        second = scrambled_bits(second ^ first);
+    }
+    return fmt::format("{:016X}{:016X}", scrambled_bits(first), second);
+}
+
+/// Objects one after the other, numbered from 1, and the table of where they begin.
+class PdfObjects {
+public:
+    explicit PdfObjects(std::string& bytes)
+        : bytes_(bytes)
+        , start_(bytes.size()) {
+        // Bytes beyond ASCII tell programs that copy files that this is no text.
+        bytes_ += "%PDF-1.7\n%\xE2\xE3\xCF\xD3\n";
+    }
+
+    void add(std::string_view object) {
+        offsets_.push_back(bytes_.size() - start_);
+        bytes_ += fmt::format("{} 0 obj\n{}\nendobj\n", offsets_.size(), object);
+    }
+
+    void finish(std::size_t catalog, std::size_t information) {
+        const std::string id = digest(std::string_view(bytes_).substr(start_));
+        const std::size_t table = bytes_.size() - start_;
+        bytes_ += fmt::format("xref\n0 {}\n0000000000 65535 f \n", offsets_.size() + 1);
+        for (const std::size_t offset : offsets_)
+            bytes_ += fmt::format("{:010} 00000 n \n", offset);
+        bytes_ += fmt::format(
+            "trailer\n<</Size {}/Root {} 0 R/Info {} 0 R/ID[<{}><{}>]>>\nstartxref\n{}\n%%EOF\n",
+            offsets_.size() + 1,
+            catalog,
+            information,
+            id,
+            id,
+            table);
+    }
+
+private:
+    std::string& bytes_;
+    std::size_t start_;
+    std::vector<std::size_t> offsets_;
+};
+
+} // namespace
+
+void write_pdf(const Drawing& drawing, const DrawingSettings& settings, std::string& bytes) {
+    enum : std::size_t { catalog = 1, pages, page, content, information, first_layer };
+
+    const Lattice lattice(settings.precision);
+    const Layers drawn = layers(drawing, settings, lattice);
+    const std::vector<std::string> names = layer_names(drawn);
+    const PageSize size = page_size(drawing, settings);
+
+    std::string references;
+    std::string resources;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        references += fmt::format("{}{} 0 R", i == 0 ? "" : " ", first_layer + i);
+        resources += fmt::format("/L{} {} 0 R", i, first_layer + i);
+    }
+    std::string layer_list;
+    if (!names.empty())
+        layer_list =
+            fmt::format("/OCProperties<</OCGs[{0}]/D<</Order[{0}]/ON[{0}]>>>>", references);
+
+    const LayerMarks marks = {
+        [](std::size_t layer, const std::string&) { return fmt::format("/OC /L{} BDC\n", layer); },
+        "EMC\n"};
+    const std::string packed = deflated(page_content(drawing, settings, lattice, drawn, marks));
+
+    PdfObjects objects(bytes);
+    objects.add(fmt::format("<</Type/Catalog/Pages {} 0 R{}>>", +pages, layer_list));
+    objects.add(fmt::format("<</Type/Pages/Kids[{} 0 R]/Count 1>>", +page));
+    objects.add(fmt::format(
+        "<</Type/Page/Parent {} 0 R/MediaBox[0 0 {} {}]/Resources<</Properties<<{}>>>>"
+        "/Contents {} 0 R>>",
+        +pages,
+        decimal(size.width, 4),
+        decimal(size.height, 4),
+        resources,
+        +content));
+    objects.add(fmt::format(
+        "<</Length {}/Filter/FlateDecode>>\nstream\n{}\nendstream", packed.size(), packed));
+    std::string texts = "/Producer(VERA)";
+    if (!drawing.title.empty())
+        texts += "/Title" + pdf_string(drawing.title);
+    if (!drawing.description.empty())
+        texts += "/Subject" + pdf_string(drawing.description);
+    objects.add("<<" + texts + ">>");
+    for (const std::string& name : names)
+        objects.add(fmt::format("<</Type/OCG/Name{}>>", pdf_string(name)));
+    objects.finish(catalog, information);
+}
+
+} // namespace vera

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "vera/drawing/drawing.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace vera::detail {
+
+/// In units of a Lattice.
+struct SnappedPoint {
+    std::int64_t x = 0;
+    std::int64_t y = 0;
+
+    friend bool operator==(const SnappedPoint&, const SnappedPoint&) = default;
+};
+
+/// A chain of points of which no two neighbours are equal; in a closed one, the last and the first
+/// are neighbours.
+struct SnappedPath {
+    std::vector<SnappedPoint> points;
+    bool closed = false;
+};
+
+/// The points that coordinates are rounded to: multiples of a power of a tenth of a pixel. Every
+/// point is rounded once, by itself, so that outlines that abut still do.
+class Lattice {
+public:
+    /// The coarsest lattice that is no coarser than the precision, which is in pixels.
+    explicit Lattice(double precision);
+
+    /// Digits behind the point of a coordinate in pixels.
+    int digits() const { return digits_; }
+
+    double units_per_pixel() const { return units_per_pixel_; }
+
+    SnappedPoint snapped(DrawingPoint point) const;
+
+private:
+    int digits_ = 0;
+    double units_per_pixel_ = 1;
+};
+
+/// The points after rounding, each but once where several in a row are equal.
+std::vector<SnappedPoint>
+snapped_points(std::span<const DrawingPoint> points, const Lattice& lattice);
+
+/// The rings of the area that are left after rounding; all closed, of three points or more.
+std::vector<SnappedPath> snapped_rings(const FilledOutline& fill, const Lattice& lattice);
+
+/// Nothing when fewer than two points are left.
+std::optional<SnappedPath> snapped_line(const Stroke& stroke, const Lattice& lattice);
+
+/// A number of units of 10^-digits as a decimal, with nothing that can be left out: "-.5", "12".
+std::string decimal(std::int64_t units, int digits);
+
+/// The number rounded to that many digits behind the point. It must be finite, and below 1e15 in
+/// units of the last digit.
+std::string decimal(double number, int digits);
+
+/// The paths as the attribute d of an SVG path. All but its first point is relative, in differences
+/// of rounded numbers: rounding does not add up.
+std::string svg_path_data(std::span<const SnappedPath> paths, int digits);
+
+} // namespace vera::detail

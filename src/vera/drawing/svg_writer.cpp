@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vera/drawing/document_text.h"
+#include "vera/drawing/layers.h"
+
+#include <cstddef>
+#include <span>
+#include <string_view>
+
+#include <fmt/format.h>
+
+namespace vera {
+
+namespace {
+
+using namespace detail;
+
+/// Digits behind the point of lengths that are no coordinates.
+constexpr int length_digits = 4;
+
+std::string css_color(DrawingColor color) {
+    const std::string text = fmt::format("{:02x}{:02x}{:02x}", color.r, color.g, color.b);
+    if (text[0] == text[1] && text[2] == text[3] && text[4] == text[5])
+        return {'#', text[0], text[2], text[4]};
+    return "#" + text;
+}
+
+class SvgWriter {
+public:
+    SvgWriter(const Drawing& drawing, const DrawingSettings& settings, std::string& text)
+        : drawing_(drawing)
+        , settings_(settings)
+        , lattice_(settings.precision)
+        , layers_(layers(drawing, settings, lattice_))
+        , text_(text) {
+        // Before the outlines take theirs, so that a layer's id is always the same.
+        if (drawing.background)
+            background_id_ = ids_.take("background");
+        if (!layers_.fills.empty())
+            fills_id_ = ids_.take("fills");
+        for (const LineLayer& layer : layers_.lines)
+            line_ids_.push_back(ids_.take(
+                layer.style.line_class.empty() ? "lines" : layer.style.line_class + "-lines"));
+    }
+
+    void write() {
+        write_head();
+        write_style();
+        if (drawing_.background)
+            text_ += fmt::format(
+                "<rect id=\"{}\" width=\"{}\" height=\"{}\" fill=\"{}\"/>\n",
+                background_id_,
+                length(drawing_.width),
+                length(drawing_.height),
+                css_color(*drawing_.background));
+        if (!layers_.fills.empty())
+            write_fills();
+        for (std::size_t i = 0; i < layers_.lines.size(); ++i)
+            write_lines(layers_.lines[i], line_ids_[i]);
+        text_ += "</svg>\n";
+    }
+
+private:
+    static std::string length(double value) { return decimal(value, length_digits); }
+
+    void write_head() {
+        const PageSize page = page_size(drawing_, settings_);
+        const auto page_length = [&](double points, double pixels) {
+            return settings_.page_width_millimeters > 0 ? length(points / 72 * 25.4) + "mm"
+                                                        : length(pixels);
+        };
+        text_ += fmt::format(
+            "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" "
+            "xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" "
+            "width=\"{}\" height=\"{}\" viewBox=\"0 0 {} {}\">\n",
+            page_length(page.width, drawing_.width),
+            page_length(page.height, drawing_.height),
+            length(drawing_.width),
+            length(drawing_.height));
+        write_element("title", drawing_.title);
+        write_element("desc", drawing_.description);
+    }
+
+    /// Nothing when the element would be empty.
+    void write_element(std::string_view element, std::string_view content) {
+        if (!content.empty())
+            text_ += fmt::format("<{0}>{1}</{0}>\n", element, xml_text(content));
+    }
+
+    void write_style() {
+        std::string rules;
+        for (const FilledPath& fill : layers_.fills)
+            if (!fill.seams.empty()) {
+                rules += fmt::format(
+                    ".seam{{fill:none;stroke-width:{};stroke-linejoin:round}}\n",
+                    length(settings_.seam_width));
+                break;
+            }
+        if (!layers_.lines.empty())
+            rules += ".line{fill:none;stroke-linecap:round;stroke-linejoin:round}\n";
+        for (std::size_t i = 0; i < layers_.lines.size(); ++i)
+            rules += rule(layers_.lines[i].style, line_ids_[i]);
+        if (!rules.empty())
+            text_ += "<style>\n" + rules + "</style>\n";
+    }
+
+    static std::string rule(const LineStyle& style, const std::string& name) {
+        std::string dashes;
+        for (const double dash : style.dashes)
+            dashes.append(dashes.empty() ? "" : " ").append(length(dash));
+        return fmt::format(
+            ".{}{{stroke:{};stroke-width:{}{}{}}}\n",
+            name,
+            css_color(style.color),
+            length(style.width),
+            // A round cap would take half its width from either side of a gap.
+            dashes.empty() ? "" : ";stroke-linecap:butt;stroke-dasharray:",
+            dashes);
+    }
+
+    void write_fills() {
+        text_ += fmt::format(
+            "<g id=\"{}\" inkscape:groupmode=\"layer\" inkscape:label=\"{}\">\n",
+            fills_id_,
+            fills_name);
+        const std::string* group = nullptr;
+        const auto end_group = [&] {
+            if (group && !group->empty())
+                text_ += "</g>\n";
+        };
+        for (const FilledPath& fill : layers_.fills) {
+            if (!group || fill.outline->group != *group) {
+                end_group();
+                group = &fill.outline->group;
+                begin_group(*group);
+            }
+            write_fill(fill);
+        }
+        end_group();
+        text_ += "</g>\n";
+    }
+
+    void begin_group(const std::string& group) {
+        if (group.empty())
+            return;
+        text_ +=
+            fmt::format("<g id=\"{}\" inkscape:label=\"{}\">\n", ids_.take(group), xml_text(group));
+        write_element("title", group);
+    }
+
+    void write_fill(const FilledPath& fill) {
+        const FilledOutline& outline = *fill.outline;
+        const std::string color = css_color(outline.color);
+        text_ += "<path";
+        if (!outline.id.empty())
+            text_ += fmt::format(R"( id="{}")", ids_.take(outline.id));
+        text_ += fmt::format(R"( fill="{}" d="{}")", color, path_data(fill.rings));
+        text_ += outline.name.empty()
+            ? "/>\n"
+            : fmt::format("><title>{}</title></path>\n", xml_text(outline.name));
+        if (!fill.seams.empty())
+            text_ += fmt::format(
+                "<path class=\"seam\" stroke=\"{}\" d=\"{}\"/>\n", color, path_data(fill.seams));
+    }
+
+    void write_lines(const LineLayer& layer, const std::string& id) {
+        text_ += fmt::format(
+            "<g id=\"{0}\" class=\"line {0}\" inkscape:groupmode=\"layer\" "
+            "inkscape:label=\"{1}\">\n",
+            id,
+            xml_text(layer.name));
+        for (const SnappedPath& line : layer.lines)
+            text_ += fmt::format("<path d=\"{}\"/>\n", path_data({&line, 1}));
+        text_ += "</g>\n";
+    }
+
+    std::string path_data(std::span<const SnappedPath> paths) const {
+        return svg_path_data(paths, lattice_.digits());
+    }
+
+    const Drawing& drawing_;
+    const DrawingSettings& settings_;
+    Lattice lattice_;
+    Layers layers_;
+    std::string& text_;
+    UniqueIds ids_;
+    std::string background_id_;
+    std::string fills_id_;
+    std::vector<std::string> line_ids_; ///< of the layers of lines, which are their classes too
+};
+
+} // namespace
+
+void write_svg(const Drawing& drawing, const DrawingSettings& settings, std::string& bytes) {
+    SvgWriter(drawing, settings, bytes).write();
+}
+
+} // namespace vera

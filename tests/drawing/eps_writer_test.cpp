@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "drawing/sample_drawing.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace vera {
+namespace {
+
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+TEST(WriteEps, SaysWhatItNeedsAndHowLargeItIs) {
+    const std::string text = written(write_eps, sample_drawing());
+    EXPECT_THAT(
+        text,
+        StartsWith("%!PS-Adobe-3.0 EPSF-3.0\n"
+                   "%%BoundingBox: 0 0 30 23\n"
+                   "%%HiResBoundingBox: 0 0 30 22.5\n"
+                   "%%Title: Two & more\n"
+                   "%%LanguageLevel: 2\n"
+                   "%%EndComments\n"));
+    EXPECT_THAT(
+        text, HasSubstr("\n0 0 30 22.5 rectclip\nq\n.0075 0 0 -.0075 0 22.5 cm\n1 1 1 rg\n"));
+    EXPECT_THAT(text, HasSubstr("\n% Hidden lines\n50 w 0 J 1 j [300 200] 0 d\n0 0 0 RG\n0 0 m\n"));
+    EXPECT_THAT(text, EndsWith("S\nQ\ngrestore\nend\n%%EOF\n"));
+}
+
+TEST(WriteEps, SetsTheColorOfALineAfterFillsOfAnother) {
+    Drawing drawing = sample_drawing();
+    drawing.fills[0].color = {0, 0, 0}; // its seam too
+    EXPECT_THAT(
+        written(write_eps, drawing),
+        HasSubstr("f\n% Hidden lines\n50 w 0 J 1 j [300 200] 0 d\n0 0 0 RG\n"));
+}
+
+TEST(WriteEps, IsAWholeFileForAnEmptyDrawing) {
+    EXPECT_THAT(
+        written(write_eps, {}),
+        EndsWith("\nq\n.0075 0 0 -.0075 0 .75 cm\nQ\ngrestore\nend\n%%EOF\n"));
+}
+
+} // namespace
+} // namespace vera

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cstddef>
+#include <vector>
+
+#include "drawing/sample_drawing.h"
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+namespace vera {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+/// The objects of a PDF without their frames, found as a reader finds them: from the end, through
+/// the table.
+std::vector<std::string> objects(const std::string& pdf) {
+    std::vector<std::string> found;
+    const std::size_t start = pdf.rfind("startxref\n");
+    const std::size_t table = std::stoul(pdf.substr(start + 10));
+    EXPECT_EQ(pdf.substr(table, 7), "xref\n0 ");
+    const std::size_t count = std::stoul(pdf.substr(table + 7));
+    const std::size_t first_entry = pdf.find('\n', table + 6) + 1;
+    EXPECT_EQ(pdf.substr(first_entry, 20), "0000000000 65535 f \n");
+    EXPECT_EQ(pdf.substr(first_entry + 20 * count, 8), "trailer\n");
+    EXPECT_THAT(pdf.substr(first_entry), HasSubstr(fmt::format("/Size {}/", count)));
+    for (std::size_t i = 1; i < count; ++i) {
+        const std::string entry = pdf.substr(first_entry + 20 * i, 20);
+        EXPECT_EQ(entry.substr(10), " 00000 n \n");
+        const std::string begin = fmt::format("{} 0 obj\n", i);
+        const std::size_t offset = std::stoul(entry);
+        EXPECT_EQ(pdf.substr(offset, begin.size()), begin);
+        const std::size_t end = pdf.find("\nendobj\n", offset);
+        found.push_back(pdf.substr(offset + begin.size(), end - offset - begin.size()));
+    }
+    return found;
+}
+
+std::string inflated(const std::string& object) {
+    const std::string before = "<</Length ";
+    EXPECT_EQ(object.substr(0, before.size()), before);
+    const std::size_t length = std::stoul(object.substr(before.size()));
+    const std::size_t start = object.find("\nstream\n") + 8;
+    EXPECT_EQ(object.substr(start + length), "\nendstream");
+
+    std::string bytes(100'000, '\0');
+    uLongf size = bytes.size();
+    EXPECT_EQ(
+        uncompress(
+            reinterpret_cast<Bytef*>(bytes.data()),
+            &size,
+            reinterpret_cast<const Bytef*>(object.data() + start),
+            length),
+        Z_OK);
+    return bytes.substr(0, size);
+}
+
+TEST(WritePdf, HasATableThatLeadsToEveryObject) {
+    const std::vector<std::string> found = objects(written(write_pdf, sample_drawing()));
+    ASSERT_EQ(found.size(), 8U);
+    EXPECT_EQ(
+        found[0],
+        "<</Type/Catalog/Pages 2 0 R/OCProperties<</OCGs[6 0 R 7 0 R 8 0 R]"
+        "/D<</Order[6 0 R 7 0 R 8 0 R]/ON[6 0 R 7 0 R 8 0 R]>>>>>>");
+    EXPECT_EQ(found[1], "<</Type/Pages/Kids[3 0 R]/Count 1>>");
+    EXPECT_EQ(
+        found[2],
+        "<</Type/Page/Parent 2 0 R/MediaBox[0 0 30 22.5]/Resources<</Properties"
+        "<</L0 6 0 R/L1 7 0 R/L2 8 0 R>>>>/Contents 4 0 R>>");
+    EXPECT_EQ(found[4], "<</Producer(VERA)/Title(Two & more)/Subject(squares)>>");
+    EXPECT_EQ(found[5], "<</Type/OCG/Name(Fills)>>");
+    EXPECT_EQ(found[6], "<</Type/OCG/Name(Hidden lines)>>");
+    EXPECT_EQ(found[7], "<</Type/OCG/Name(Silhouette lines)>>");
+}
+
+TEST(WritePdf, PaintsInWholeNumbers) {
+    const std::vector<std::string> found = objects(written(write_pdf, sample_drawing()));
+    ASSERT_EQ(found.size(), 8U);
+    EXPECT_EQ(inflated(found[3]), R"(q
+.0075 0 0 -.0075 0 22.5 cm
+1 1 1 rg
+0 0 4000 3000 re
+f
+/OC /L0 BDC
+200 w 0 J 1 j [] 0 d
+1 0 0 rg
+100 100 m
+1100 100 l
+1100 1100 l
+100 1100 l
+h
+200 200 m
+200 350 l
+325 350 l
+h
+f
+1 0 0 RG
+1100 100 m
+1100 1100 l
+S
+.071 .204 .337 rg
+1100 100 m
+2100 100 l
+2100 1100 l
+1100 1100 l
+h
+f
+0 0 1 rg
+50 -25 m
+75 50 l
+150 75 l
+h
+f
+EMC
+/OC /L1 BDC
+50 w 0 J 1 j [300 200] 0 d
+0 0 0 RG
+0 0 m
+1000 500 l
+S
+500 500 m
+500 1000 l
+S
+EMC
+/OC /L2 BDC
+150 w 1 J 1 j [] 0 d
+100 100 m
+2100 100 l
+2100 1100 l
+100 1100 l
+h
+S
+EMC
+Q
+)");
+}
+
+TEST(WritePdf, IsAWholeFileForAnEmptyDrawing) {
+    const std::vector<std::string> found = objects(written(write_pdf, {}));
+    ASSERT_EQ(found.size(), 5U);
+    EXPECT_EQ(found[0], "<</Type/Catalog/Pages 2 0 R>>");
+    EXPECT_EQ(inflated(found[3]), "q\n.0075 0 0 -.0075 0 .75 cm\nQ\n");
+    EXPECT_EQ(found[4], "<</Producer(VERA)>>");
+}
+
+TEST(WritePdf, GivesThePageASizeInMillimeters) {
+    const std::vector<std::string> found =
+        objects(written(write_pdf, sample_drawing(), {.page_width_millimeters = 25.4}));
+    ASSERT_EQ(found.size(), 8U);
+    EXPECT_THAT(found[2], HasSubstr("/MediaBox[0 0 72 54]"));
+    EXPECT_THAT(inflated(found[3]), HasSubstr("\n.018 0 0 -.018 0 54 cm\n"));
+}
+
+TEST(WritePdf, CountsFromItsOwnBeginning) {
+    std::string bytes = "before";
+    write_pdf(sample_drawing(), {}, bytes);
+    EXPECT_EQ(bytes.substr(6), written(write_pdf, sample_drawing()));
+}
+
+TEST(WritePdf, HasAnIdOfItsContent) {
+    const auto id = [](const std::string& pdf) { return pdf.substr(pdf.find("/ID[<") + 5, 32); };
+    const std::string pdf = written(write_pdf, sample_drawing());
+    EXPECT_EQ(id(pdf), id(written(write_pdf, sample_drawing())));
+    Drawing other = sample_drawing();
+    other.fills[0].rings[0][0].x = 0;
+    EXPECT_NE(id(pdf), id(written(write_pdf, other)));
+    EXPECT_THAT(pdf, Not(HasSubstr("Date")));
+}
+
+} // namespace
+} // namespace vera

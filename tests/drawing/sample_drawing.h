@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "vera/drawing/drawing_file.h"
+
+#include <string>
+
+namespace vera {
+
+/// Two squares side by side, the left one with a hole, in one group; a triangle beside it; and
+/// lines of two classes.
+inline Drawing sample_drawing() {
+    Drawing drawing;
+    drawing.width = 40;
+    drawing.height = 30;
+    drawing.title = "Two & more";
+    drawing.description = "squares";
+    drawing.background = DrawingColor{255, 255, 255};
+    drawing.fills = {
+        {.id = "left",
+         .name = "a <square>",
+         .group = "squares",
+         .color = {255, 0, 0},
+         .rings = {{{1, 1}, {11, 1}, {11, 11}, {1, 11}}, {{2, 2}, {2, 3.5}, {3.254, 3.5}}},
+         .seams = {{{11, 1}, {11, 11}}}},
+        {.group = "squares",
+         .color = {18, 52, 86},
+         .rings = {{{11, 1}, {21, 1}, {21, 11}, {11, 11}}}},
+        {.color = {0, 0, 255}, .rings = {{{0.5, -0.25}, {0.75, 0.5}, {1.5, 0.75}}}}};
+    drawing.strokes = {
+        {.line_class = "hidden", .points = {{0, 0}, {10, 5}}},
+        {.line_class = "silhouette",
+         .points = {{1, 1}, {21, 1}, {21, 11}, {1, 11}},
+         .closed = true},
+        {.line_class = "hidden", .points = {{5, 5}, {5, 10}}}};
+    return drawing;
+}
+
+inline std::string written(
+    void (*write)(const Drawing&, const DrawingSettings&, std::string&),
+    const Drawing& drawing,
+    const DrawingSettings& settings = {}) {
+    std::string bytes;
+    write(drawing, settings, bytes);
+    return bytes;
+}
+
+} // namespace vera

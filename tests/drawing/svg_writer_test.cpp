@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <limits>
+
+#include "drawing/sample_drawing.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace vera {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+const char head[] = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+                    "<svg xmlns=\"http://www.w3.org/2000/svg\" "
+                    "xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" ";
+
+TEST(WriteSvg, HasLayersGroupsSeamsAndLines) {
+    EXPECT_EQ(
+        written(write_svg, sample_drawing()),
+        std::string(head) + R"(width="40" height="30" viewBox="0 0 40 30">
+<title>Two &amp; more</title>
+<desc>squares</desc>
+<style>
+.seam{fill:none;stroke-width:2;stroke-linejoin:round}
+.line{fill:none;stroke-linecap:round;stroke-linejoin:round}
+.hidden-lines{stroke:#000;stroke-width:.5;stroke-linecap:butt;stroke-dasharray:3 2}
+.silhouette-lines{stroke:#000;stroke-width:1.5}
+</style>
+<rect id="background" width="40" height="30" fill="#fff"/>
+<g id="fills" inkscape:groupmode="layer" inkscape:label="Fills">
+<g id="squares" inkscape:label="squares">
+<title>squares</title>
+<path id="left" fill="#f00" d="m1 1h10v10h-10zm1 1v1.5h1.25z"><title>a &lt;square&gt;</title></path>
+<path class="seam" stroke="#f00" d="m11 1v10"/>
+<path fill="#123456" d="m11 1h10v10h-10z"/>
+</g>
+<path fill="#00f" d="m.5-.25.25.75.75.25z"/>
+</g>
+<g id="hidden-lines" class="line hidden-lines" inkscape:groupmode="layer" inkscape:label="Hidden lines">
+<path d="m0 0 10 5"/>
+<path d="m5 5v5"/>
+</g>
+<g id="silhouette-lines" class="line silhouette-lines" inkscape:groupmode="layer" inkscape:label="Silhouette lines">
+<path d="m1 1h20v10h-20z"/>
+</g>
+</svg>
+)");
+}
+
+TEST(WriteSvg, IsAWholeFileForAnEmptyDrawing) {
+    EXPECT_EQ(
+        written(write_svg, {}),
+        std::string(head) + "width=\"1\" height=\"1\" viewBox=\"0 0 1 1\">\n</svg>\n");
+}
+
+TEST(WriteSvg, GivesThePageASizeInMillimetersAndLeavesThePixels) {
+    EXPECT_THAT(
+        written(write_svg, sample_drawing(), {.page_width_millimeters = 210}),
+        HasSubstr("width=\"210mm\" height=\"157.5mm\" viewBox=\"0 0 40 30\""));
+}
+
+TEST(WriteSvg, RoundsToThePrecision) {
+    EXPECT_THAT(
+        written(write_svg, sample_drawing(), {.precision = 0.1}),
+        HasSubstr("d=\"m1 1h10v10h-10zm1 1v1.5h1.3z\""));
+}
+
+TEST(WriteSvg, LeavesSeamsOpenWhenAsked) {
+    EXPECT_THAT(
+        written(write_svg, sample_drawing(), {.cover_seams = false}), Not(HasSubstr("seam")));
+}
+
+TEST(WriteSvg, LeavesNoTraceOfAGroupOfWhichNothingIsLeft) {
+    Drawing drawing;
+    drawing.fills = {
+        {.id = "a",
+         .group = "gone",
+         .rings = {{{0, 0}, {1, 0}, {0.5, 0.1}}},
+         .seams = {{{0, 0}, {1, 0}}}}};
+    drawing.strokes = {{.line_class = "hidden", .points = {{0, 0}}}};
+    EXPECT_EQ(written(write_svg, drawing, {.precision = 1}), written(write_svg, {}));
+}
+
+TEST(WriteSvg, GivesEveryElementAnIdOfItsOwn) {
+    Drawing drawing = sample_drawing();
+    for (FilledOutline& fill : drawing.fills)
+        fill.id = "fills";
+    drawing.fills[1].group = "fills";
+    const std::string text = written(write_svg, drawing);
+    for (const char* id : {"fills", "fills-2", "fills-3", "fills-4", "fills-5"})
+        EXPECT_THAT(text, HasSubstr("id=\"" + std::string(id) + "\"")) << id;
+    EXPECT_THAT(text, HasSubstr("<g id=\"fills\" inkscape:groupmode"));
+}
+
+TEST(WriteSvg, DrawsLinesOfAnUnknownClassAnyhow) {
+    Drawing drawing;
+    drawing.strokes = {
+        {.points = {{0, 0}, {1, 2}}}, {.line_class = "a{b", .points = {{0, 0}, {1, 1}}}};
+    const std::string text = written(write_svg, drawing);
+    EXPECT_THAT(text, HasSubstr(".lines{stroke:#000;stroke-width:1}\n"));
+    EXPECT_THAT(text, HasSubstr(".a-b-lines{stroke:#000;stroke-width:1}\n"));
+    EXPECT_THAT(
+        text,
+        HasSubstr(
+            "class=\"line a-b-lines\" inkscape:groupmode=\"layer\" inkscape:label=\"A{b lines\""));
+}
+
+TEST(WriteSvgDeathTest, RefusesNumbersThatAreNotFinite) {
+    Drawing drawing = sample_drawing();
+    drawing.fills[0].rings[0][0].x = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_DEATH(written(write_svg, drawing), "drawing/snapped_path.cpp");
+    EXPECT_DEATH(written(write_svg, {.width = 0}), "drawing.width > 0");
+}
+
+} // namespace
+} // namespace vera
