@@ -4,5 +4,5 @@ vera_tests(meshes unit
         mesh_file_test.cpp nff_test.cpp obj_file_test.cpp ply_file_test.cpp stl_file_test.cpp
     LINKS vera::formats)
 vera_tests(meshes agree
-    SOURCES number_test.cpp polygon_triangles_test.cpp
+    SOURCES number_test.cpp
     LINKS vera::formats)

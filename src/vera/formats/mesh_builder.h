@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "vera/formats/polygon_triangles.h"
 #include "vera/formats/source_report.h"
+#include "vera/scene/polygon_triangles.h"
 #include "vera/scene/primitives.h"
 
 #include <cstddef>

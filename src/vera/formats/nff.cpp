@@ -3,10 +3,10 @@
 
 #include "vera/formats/mesh_builder.h"
 #include "vera/formats/nff_mapping.h"
-#include "vera/formats/polygon_triangles.h"
 #include "vera/formats/reserve_room.h"
 #include "vera/formats/source_report.h"
 #include "vera/formats/text_cursor.h"
+#include "vera/scene/polygon_triangles.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "vera/formats/polygon_triangles.h"
+#include "vera/scene/polygon_triangles.h"
 
 #include <algorithm>
 #include <cmath>
