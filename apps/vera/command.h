@@ -40,6 +40,7 @@ public:
 // Each adds one subcommand, whose callback throws as the library does. The console outlives the
 // app.
 void add_render_command(CLI::App& app, Console& console);
+void add_draw_command(CLI::App& app, Console& console);
 void add_check_command(CLI::App& app, Console& console);
 void add_info_command(CLI::App& app, Console& console);
 

@@ -6,7 +6,6 @@
 #include "vera/image/image_file.h"
 #include "vera/render/render_scene.h"
 
-#include <chrono>
 #include <filesystem>
 
 #include "command.h"
@@ -16,6 +15,7 @@
 #include "prepared_scene.h"
 #include "progress_display.h"
 #include "scene_index.h"
+#include "stopwatch.h"
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -45,20 +45,6 @@ struct Report {
     std::size_t index_bytes = 0;
     RenderStatistics statistics;
     std::optional<Exposure> exposure;
-};
-
-class Stopwatch {
-public:
-    /// Seconds since the last call, or since this was made.
-    double lap() {
-        const auto now = std::chrono::steady_clock::now();
-        const double seconds = std::chrono::duration<double>(now - last_).count();
-        last_ = now;
-        return seconds;
-    }
-
-private:
-    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
 /// "did you mean 'a.png'? Else " for a name whose extension is like one of those that are known.

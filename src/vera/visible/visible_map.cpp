@@ -177,8 +177,9 @@ Ways ways_of(const ScreenScene& scene, const VisiblePieces& pieces, VisibleMap& 
     };
     for (std::size_t i = 0; i < count; ++i) {
         const VisiblePiece& piece = pieces.pieces[i];
-        ways.from[2 * i] = numbers.number(piece.from);
-        ways.from[2 * i + 1] = numbers.number(piece.to);
+        map.piece_ends.push_back({numbers.number(piece.from), numbers.number(piece.to)});
+        ways.from[2 * i] = map.piece_ends.back()[0];
+        ways.from[2 * i + 1] = map.piece_ends.back()[1];
         ways.direction[2 * i] = step(piece.edge_begin, piece.edge_end);
         ways.direction[2 * i + 1] = step(piece.edge_end, piece.edge_begin);
         ways.source[2 * i] = source_of(piece.left);

@@ -4,6 +4,7 @@
 #include "vera/visible/cell_raster.h"
 #include "vera/visible/screen_scene.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -24,6 +25,7 @@ struct VisibleMap {
     };
 
     std::vector<RationalPoint> vertices;
+    std::vector<std::array<std::uint32_t, 2>> piece_ends; ///< the vertices of each piece
     std::vector<Ring> rings; ///< by source
     std::vector<std::uint32_t> ring_vertices;
     std::vector<std::uint32_t> ring_across; ///< sources, or no_source

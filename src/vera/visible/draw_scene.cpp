@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vera/visible/draw_scene.h"
+
+#include "vera/base/diagnostic.h"
+#include "vera/shade/firmament.h"
+#include "vera/shade/lighting.h"
+#include "vera/visible/drawn_faces.h"
+#include "vera/visible/outline_strokes.h"
+#include "vera/visible/penetrations.h"
+#include "vera/visible/projection.h"
+#include "vera/visible/visible_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace vera {
+
+namespace {
+
+/// What the stages of a drawing have in common.
+struct Painted {
+    const Scene& scene;
+    const Camera& camera;
+    const PictureSettings& picture;
+    const DrawSettings& settings;
+    const Facets& facets;
+    const DrawnFaces& faces;
+    const VisibleMap& map;
+};
+
+DrawingColor as_drawn(Color color) {
+    const Color shown = clamped(color);
+    const auto byte = [](double value) {
+        return static_cast<std::uint8_t>(std::floor(255 * value + 0.5));
+    };
+    return {byte(shown.r), byte(shown.g), byte(shown.b)};
+}
+
+DrawingColor color_of_number(std::uint64_t number) {
+    const auto byte = [&](unsigned shift) {
+        return static_cast<std::uint8_t>(number >> shift & 0xffU);
+    };
+    return {byte(16), byte(8), byte(0)};
+}
+
+DrawingPoint drawn_point(const Painted& painted, std::uint32_t vertex) {
+    const RationalPoint& point = painted.map.vertices[vertex];
+    return {
+        point.x() * painted.picture.width / screen_size,
+        point.y() * painted.picture.height / screen_size};
+}
+
+/// What the face gives back towards the viewer at the point of its plane that is seen in the middle
+/// of the ring, without shadows and mirrors.
+Color light_of_face(const Painted& painted, std::uint32_t face, const VisibleMap::Ring& ring) {
+    const Facets::Triangle& facet = painted.facets.triangles[painted.faces.first_facet[face]];
+    const Vec3 a = painted.facets.corners[facet.corners[0]];
+    const Vec3 normal = normalized(cross(
+        painted.facets.corners[facet.corners[1]] - a,
+        painted.facets.corners[facet.corners[2]] - a));
+    double x = 0;
+    double y = 0;
+    for (const std::uint32_t vertex : painted.map.vertices_of(ring)) {
+        x += painted.map.vertices[vertex].x();
+        y += painted.map.vertices[vertex].y();
+    }
+    const double per_part = 1 / (static_cast<double>(ring.count) * screen_size);
+    const Ray ray = view_ray(painted.camera, x * per_part, y * per_part);
+    const double speed = dot(normal, ray.direction);
+    SurfacePoint surface;
+    surface.point = speed == 0 ? a : point_at(ray, dot(normal, a - ray.origin) / speed);
+    surface.geometric_normal = surface.shading_normal = normal;
+    surface.material = facet.material;
+    const Material& material = material_of(painted.scene, facet.material);
+    const Incidence at = incidence(surface, ray.direction);
+    LocalTerms terms = unlit(at, material, painted.picture.ambient);
+    for (const PointLight& light : painted.scene.lights)
+        terms += unshadowed(at, material, light);
+    return sum(terms);
+}
+
+std::string kind_name(ItemKind kind) {
+    switch (kind) {
+    case ItemKind::sphere:
+        return "sphere";
+    case ItemKind::triangle:
+        return "triangle";
+    case ItemKind::polygon:
+        return "polygon";
+    case ItemKind::patch:
+        return "patch";
+    case ItemKind::rotational_shape:
+        return "rotational shape";
+    case ItemKind::mesh:
+        return "mesh";
+    case ItemKind::subscene_call:
+        break;
+    }
+    return "subscene";
+}
+
+/// Of the item that holds the primitive: what it is, and where it was written.
+std::string group_name(const Scene& scene, std::uint64_t primitive) {
+    const PrimitivePath path = path_to(scene, primitive);
+    const Item& item = path.geometry->items[path.element.item];
+    std::string name = kind_name(item.kind);
+    if (!path.geometry->name.empty())
+        name += " of " + path.geometry->name;
+    return item.line == 0 ? name : name + ", line " + std::to_string(item.line);
+}
+
+/// The rings of one face, from first to last in the map, as an outline without colour.
+FilledOutline outline_of(const Painted& painted, std::span<const VisibleMap::Ring> rings) {
+    FilledOutline outline;
+    for (const VisibleMap::Ring& ring : rings) {
+        const auto vertices = painted.map.vertices_of(ring);
+        std::vector<DrawingPoint>& points = outline.rings.emplace_back();
+        points.reserve(vertices.size());
+        for (const std::uint32_t vertex : vertices)
+            points.push_back(drawn_point(painted, vertex));
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const std::uint32_t across = painted.map.ring_across[ring.first + i];
+            if (across != no_source && across > ring.source)
+                outline.seams.push_back({points[i], points[i + 1 == points.size() ? 0 : i + 1]});
+        }
+    }
+    return outline;
+}
+
+DrawingColor
+color_of(const Painted& painted, std::uint32_t face, std::span<const VisibleMap::Ring> rings) {
+    const Facets::Triangle& facet = painted.facets.triangles[painted.faces.first_facet[face]];
+    if (painted.settings.style == DrawingStyle::ids)
+        return color_of_number(facet.primitive + 1);
+    const auto largest =
+        std::max_element(rings.begin(), rings.end(), [&](const auto& a, const auto& b) {
+            return doubled_area(painted.map, a) < doubled_area(painted.map, b);
+        });
+    return as_drawn(light_of_face(painted, face, *largest));
+}
+
+void add_fills(const Painted& painted, Drawing& drawing) {
+    const std::span<const VisibleMap::Ring> rings = painted.map.rings;
+    std::uint64_t grouped = 0;
+    std::string group;
+    for (std::size_t first = 0, last = 0; first < rings.size(); first = last) {
+        const std::uint32_t face = rings[first].source;
+        while (last < rings.size() && rings[last].source == face)
+            ++last;
+        const auto own = rings.subspan(first, last - first);
+        const std::uint32_t facet = painted.faces.first_facet[face];
+        const std::uint64_t primitive = painted.facets.triangles[facet].primitive;
+        if (group.empty() || primitive != grouped)
+            group = group_name(painted.scene, primitive);
+        grouped = primitive;
+        FilledOutline outline = outline_of(painted, own);
+        outline.id = "face-" + std::to_string(primitive + 1);
+        outline.group = group;
+        outline.color = color_of(painted, face, own);
+        drawing.fills.push_back(std::move(outline));
+    }
+}
+
+std::optional<DrawingColor> background(const Painted& painted) {
+    switch (painted.settings.style) {
+    case DrawingStyle::ids:
+        return color_of_number(0);
+    case DrawingStyle::flat:
+        return as_drawn(firmament_color(
+            painted.picture.firmament, view_ray(painted.camera, 0.5, 0.5).direction));
+    case DrawingStyle::lines:
+        break;
+    }
+    return std::nullopt;
+}
+
+void check_numbers(const Facets& facets) {
+    constexpr std::uint64_t most = (std::uint64_t{1} << 24U) - 1;
+    if (facets.triangles.empty() || facets.triangles.back().primitive < most)
+        return;
+    Diagnostic problem;
+    problem.problem = "style ids can tell 16 777 215 primitives apart, and the scene has more";
+    problem.remedy = "draw a part of it, or take another style";
+    throw InputError({problem});
+}
+
+} // namespace
+
+DrawnScene draw_scene(
+    const Scene& scene,
+    const Camera& camera,
+    const PictureSettings& picture,
+    const DrawSettings& settings,
+    const Progress& progress,
+    const CancelFlag* cancel) {
+    const CameraMap camera_map(camera);
+    const double part = settings.deviation / picture.width;
+    const Facets all =
+        facets(scene, [&](Vec3 point) { return camera_map.size_of(part, point); }, cancel);
+    if (settings.style == DrawingStyle::ids)
+        check_numbers(all);
+    const DrawnFaces faces = drawn_faces(
+        scene,
+        all,
+        settings.style == DrawingStyle::flat ? FaceUnit::plane : FaceUnit::primitive);
+    ScreenScene screen = screen_scene(all, camera_map, faces.of_facet);
+    sort_by_place(screen);
+    const WholePieces whole = whole_pieces(screen, progress, cancel);
+    const VisibleMap map = visible_map(screen, whole.pieces);
+
+    const Painted painted = {scene, camera, picture, settings, all, faces, map};
+    DrawnScene drawn;
+    drawn.facets = all.triangles.size();
+    drawn.cut_rounds = static_cast<std::size_t>(whole.rounds - 1);
+    drawn.penetrating = whole.left;
+    drawn.cut_nearness = screen.cut_nearness;
+    drawn.drawing.width = picture.width;
+    drawn.drawing.height = picture.height;
+    drawn.drawing.background = background(painted);
+    if (settings.style == DrawingStyle::lines)
+        add_strokes({scene, all, faces, screen, whole.pieces, map}, picture, drawn.drawing);
+    else
+        add_fills(painted, drawn.drawing);
+    for (std::size_t i = 0; i < map.rings.size(); ++i)
+        drawn.visible_faces += i == 0 || map.rings[i].source != map.rings[i - 1].source ? 1 : 0;
+    return drawn;
+}
+
+} // namespace vera
