@@ -18,7 +18,7 @@ constexpr double steep = 2;
 constexpr double near_part = 1.0 / 256;
 
 /// The smallest triangles are 2^-28 of the radius.
-constexpr int most_passes = 28;
+constexpr int most_passes = 56;
 
 class SphereFacets {
 public:
@@ -47,7 +47,7 @@ public:
     bool refine(std::size_t most) {
         for (Face& face : faces_) {
             if (!face.settled && is_coarse(face))
-                mark_all(face);
+                midpoints_.emplace(edge(face, longest(face)), no_corner);
             face.settled = true;
         }
         mark_longest_edges();
@@ -116,6 +116,21 @@ private:
         return static_cast<std::uint32_t>(directions_.size() - 1);
     }
 
+    /// Of the smallest circle round the face, that is: round its corners, or on its longest edge.
+    /// No point of the face is farther from the unit sphere than the middle of that circle.
+    double squared_circle_radius(const Face& face) const {
+        std::array<double, 3> sides = {};
+        for (std::size_t i = 0; i < 3; ++i)
+            sides[i] = length_squared(edge(face, i));
+        std::sort(sides.begin(), sides.end());
+        if (sides[2] >= sides[0] + sides[1])
+            return sides[2] / 4;
+        const Vec3 corner = directions_[face.corners[0]];
+        const Vec3 doubled_area =
+            cross(directions_[face.corners[1]] - corner, directions_[face.corners[2]] - corner);
+        return sides[0] * sides[1] * sides[2] / (4 * dot(doubled_area, doubled_area));
+    }
+
     bool is_coarse(const Face& face) const {
         const auto& [a, b, c] = face.corners;
         const Vec3 middle = normalized(directions_[a] + directions_[b] + directions_[c]);
@@ -127,10 +142,7 @@ private:
             least = std::min(least, here);
             most = std::isfinite(here) ? std::max(most, here) : most;
         }
-        // The point of a triangle that is farthest from the sphere is the middle of its
-        // circumscribed circle or lies on an edge. That circle's radius is at most the longest edge
-        // over the square root of 3.
-        const double circle = length_squared(edge(face, longest(face))) / 3;
+        const double circle = squared_circle_radius(face);
         const double off = sphere_.radius * circle / (1 + std::sqrt(1 - circle));
         return !(off <= least) || (most > steep * least && off > near_part * least);
     }
