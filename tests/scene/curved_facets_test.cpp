@@ -181,7 +181,7 @@ TEST(CurvedFacets, AreClosedAndFaceOutwards) {
          {everywhere(0.2),
           everywhere(0.004),
           everywhere(infinity),
-          near({1.51, 2.7, 3.57}, 0.003),
+          near({1.51, 2.7, 3.57}, 0.01),
           near({1, 3.0001, 3}, 0.01),
           near({1, 3, 3}, 0.01)}) {
         const double part = deviation({0, 0, 0}) > 0.005 ? 0.5 : 0.96;
