@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <random>
 #include <string>
@@ -16,6 +15,7 @@
 
 #include <gtest/gtest.h>
 
+#include "visible/map_turns.h"
 #include "visible/screen_scenes.h"
 
 namespace vera {
@@ -24,27 +24,7 @@ namespace {
 using testing::layers;
 using testing::scattered;
 using testing::terrain;
-
-/// How often each ring goes round the point, added up by source.
-std::map<std::uint32_t, int> turns_about(const VisibleMap& map, double x, double y) {
-    std::map<std::uint32_t, int> turns;
-    for (const VisibleMap::Ring& ring : map.rings) {
-        const auto vertices = map.vertices_of(ring);
-        int of_ring = 0;
-        for (std::size_t i = 0; i < vertices.size(); ++i) {
-            const RationalPoint& a = map.vertices[vertices[i]];
-            const RationalPoint& b = map.vertices[vertices[(i + 1) % vertices.size()]];
-            const double side = (b.x() - a.x()) * (y - a.y()) - (b.y() - a.y()) * (x - a.x());
-            if (a.y() <= y && b.y() > y && side > 0)
-                ++of_ring;
-            else if (a.y() > y && b.y() <= y && side < 0)
-                --of_ring;
-        }
-        if (of_ring != 0 && (turns[ring.source] += of_ring) == 0)
-            turns.erase(ring.source);
-    }
-    return turns;
-}
+using testing::turns_about;
 
 double area_of(const VisibleMap& map) {
     double area = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/drawing/document_text.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -144,9 +145,13 @@ std::string UniqueIds::take(std::string_view wanted) {
     if (id.empty() || !is_letter(id.front()))
         id.insert(0, 1, '_');
 
+    // From the number on that was given last.
+    std::uint64_t number = taken_[id];
     std::string unique = id;
-    for (std::uint64_t number = 2; !taken_.insert(unique).second; ++number)
-        unique = id + "-" + std::to_string(number);
+    while (number > 0 && taken_[unique] > 0)
+        unique = id + "-" + std::to_string(++number);
+    taken_[unique] = std::max<std::uint64_t>(taken_[unique], 1);
+    taken_[id] = std::max<std::uint64_t>(number, 1);
     return unique;
 }
 

@@ -2,9 +2,10 @@
 // Strings of the world in the texts of documents.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
-#include <unordered_set>
+#include <unordered_map>
 
 namespace vera::detail {
 
@@ -22,12 +23,12 @@ std::string plain_line(std::string_view utf8);
 class UniqueIds {
 public:
     /// The wanted id made of letters, digits, '-', '_' and '.', so that XML and CSS can name it;
-    /// with
-    /// "-2", "-3" ... behind it when it has been given before.
+    /// with "-2", "-3" ... behind it when it has been given before.
     std::string take(std::string_view wanted);
 
 private:
-    std::unordered_set<std::string> taken_;
+    /// The number behind the last one made of each id, 1 for none: 0 where it was never given.
+    std::unordered_map<std::string, std::uint64_t> taken_;
 };
 
 } // namespace vera::detail

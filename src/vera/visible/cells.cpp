@@ -9,47 +9,91 @@ namespace vera {
 
 namespace {
 
-struct CellRange {
-    std::int32_t first_column;
-    std::int32_t last_column;
-    std::int32_t first_row;
-    std::int32_t last_row;
+/// Columns of cells, none where last < first.
+struct Columns {
+    std::int32_t first = 0;
+    std::int32_t last = -1;
 };
 
-CellRange range_of(const Cells& cells, const std::array<ScreenVertex, 3>& corners) {
-    ScreenPoint low = corners[0].point;
-    ScreenPoint high = low;
-    for (const ScreenVertex& corner : corners) {
-        low = {std::min(low.x, corner.point.x), std::min(low.y, corner.point.y)};
-        high = {std::max(high.x, corner.point.x), std::max(high.y, corner.point.y)};
+/// What of a row of cells a triangle touches, and what it covers altogether.
+struct RowOfCells {
+    Columns touched;
+    Columns covered;
+};
+
+/// The part of a line across the picture that lies in a convex area.
+struct Chord {
+    double left = std::numeric_limits<double>::infinity();
+    double right = -std::numeric_limits<double>::infinity();
+
+    void include(double x) {
+        left = std::min(left, x);
+        right = std::max(right, x);
     }
-    return {
-        cells.cell_of(low.x), cells.cell_of(high.x), cells.cell_of(low.y), cells.cell_of(high.y)};
+};
+
+/// Of the triangle with the line at that height; off by less than a step.
+Chord chord_at(const std::array<ScreenVertex, 3>& corners, std::int64_t y) {
+    Chord chord;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const ScreenPoint a = corners[i].point;
+        const ScreenPoint b = corners[(i + 1) % 3].point;
+        if (a.y == y)
+            chord.include(a.x);
+        if ((a.y < y && b.y > y) || (a.y > y && b.y < y))
+            chord.include(
+                a.x
+                + static_cast<double>(b.x - a.x) * static_cast<double>(y - a.y)
+                    / static_cast<double>(b.y - a.y));
+    }
+    return chord;
 }
 
-/// How a triangle and a cell, its border included, lie to each other.
-struct Overlap {
-    bool touches = true;
-    bool covers = true;
-};
+/// What of the row from height low to high the triangle touches and covers; perhaps a cell more of
+/// the one, and a cell less of the other.
+RowOfCells row_of_cells(
+    const Cells& cells,
+    const std::array<ScreenVertex, 3>& corners,
+    std::int64_t low,
+    std::int64_t high) {
+    const Chord below = chord_at(corners, low);
+    const Chord above = chord_at(corners, high);
+    Chord all = below;
+    all.left = std::min(all.left, above.left);
+    all.right = std::max(all.right, above.right);
+    for (const ScreenVertex& corner : corners)
+        if (corner.point.y >= low && corner.point.y <= high)
+            all.include(corner.point.x);
+    RowOfCells row;
+    if (!(all.left <= all.right))
+        return row;
+    const auto column = [&](double x) {
+        return cells.cell_of(
+            static_cast<std::int32_t>(std::clamp<double>(x, 0, screen_size)));
+    };
+    row.touched = {column(all.left - 1), column(all.right + 1)};
+    // Between the chords' ends the sides bulge outward.
+    const double left = std::max(below.left, above.left) + 1;
+    const double right = std::min(below.right, above.right) - 1;
+    const double size = std::ldexp(1.0, cells.shift);
+    if (left < right)
+        row.covered = {
+            static_cast<std::int32_t>(std::ceil(left / size)),
+            static_cast<std::int32_t>(std::floor(right / size)) - 1};
+    return row;
+}
 
-Overlap
-overlap(const Cells& cells, const std::array<ScreenVertex, 3>& corners, ScreenPoint lower) {
-    const std::int64_t size = std::int64_t{1} << cells.shift;
-    Overlap result;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const ScreenPoint from = corners[i].point;
-        const ScreenStep side = step(from, corners[(i + 1) % 3].point);
-        // Positive inside; at the cell's corner where that is largest, and where it is smallest.
-        const std::int64_t at_lower = cross(side, step(from, lower));
-        const std::int64_t largest =
-            at_lower + size * (std::max<std::int64_t>(-side.y, 0) + std::max<std::int64_t>(side.x, 0));
-        const std::int64_t smallest =
-            at_lower + size * (std::min<std::int64_t>(-side.y, 0) + std::min<std::int64_t>(side.x, 0));
-        result.touches = result.touches && largest >= 0;
-        result.covers = result.covers && smallest >= 0;
+/// Calls visit(row, RowOfCells) for the rows that the triangle touches.
+template <typename Visit>
+void for_each_row_of(
+    const Cells& cells, const std::array<ScreenVertex, 3>& corners, const Visit& visit) {
+    const auto [lowest, highest] = std::minmax(
+        {corners[0].point.y, corners[1].point.y, corners[2].point.y});
+    const std::int32_t last = cells.cell_of(highest);
+    for (std::int32_t row = cells.cell_of(lowest); row <= last; ++row) {
+        const std::int64_t low = std::int64_t{row} << cells.shift;
+        visit(row, row_of_cells(cells, corners, low, low + (std::int64_t{1} << cells.shift)));
     }
-    return result;
 }
 
 /// Not more than how near the plane is at any point of the cell.
@@ -62,22 +106,6 @@ std::int64_t least_nearness(const Cells& cells, const DepthPlane& plane, ScreenP
     // Within a triangle the terms of value() are at most 2^34, for slivers far more; but those cover
     // no cell.
     return static_cast<std::int64_t>(std::floor(least)) - 1;
-}
-
-/// Calls visit(number, lower corner) for the cells in the range that the triangle touches.
-template <typename Visit>
-void for_each_cell_of(
-    const Cells& cells, const std::array<ScreenVertex, 3>& corners, const Visit& visit) {
-    const CellRange range = range_of(cells, corners);
-    const bool is_small = range.last_column - range.first_column <= 1
-        && range.last_row - range.first_row <= 1;
-    for (std::int32_t row = range.first_row; row <= range.last_row; ++row)
-        for (std::int32_t column = range.first_column; column <= range.last_column; ++column) {
-            const ScreenPoint lower = {column << cells.shift, row << cells.shift};
-            const Overlap found = is_small ? Overlap{true, false} : overlap(cells, corners, lower);
-            if (found.touches)
-                visit(cells.number(column, row), lower, found.covers);
-        }
 }
 
 std::int64_t nearest(const std::array<ScreenVertex, 3>& corners) {
@@ -103,22 +131,25 @@ Cells cells_of(const ScreenScene& scene, std::span<const DepthPlane> planes) {
         static_cast<std::size_t>(cells.per_side) * static_cast<std::size_t>(cells.per_side);
     cells.blocked.assign(count, -1);
     for (std::size_t i = 0; i < scene.triangles.size(); ++i)
-        for_each_cell_of(
+        for_each_row_of(
             cells,
             corners_of(scene, scene.triangles[i]),
-            [&](std::size_t cell, ScreenPoint lower, bool covers) {
-                if (covers)
-                    cells.blocked[cell] = std::max(
-                        cells.blocked[cell], least_nearness(cells, planes[i], lower));
+            [&](std::int32_t row, const RowOfCells& found) {
+                for (std::int32_t j = found.covered.first; j <= found.covered.last; ++j) {
+                    std::int64_t& blocked = cells.blocked[cells.number(j, row)];
+                    const ScreenPoint lower = {j << cells.shift, row << cells.shift};
+                    blocked = std::max(blocked, least_nearness(cells, planes[i], lower));
+                }
             });
 
     const auto for_each_entry = [&](const auto& visit) {
         for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
             const auto corners = corners_of(scene, scene.triangles[i]);
             const std::int64_t near = nearest(corners);
-            for_each_cell_of(cells, corners, [&](std::size_t cell, ScreenPoint, bool) {
-                if (near >= cells.blocked[cell])
-                    visit(cell, i);
+            for_each_row_of(cells, corners, [&](std::int32_t row, const RowOfCells& found) {
+                for (std::int32_t j = found.touched.first; j <= found.touched.last; ++j)
+                    if (const std::size_t cell = cells.number(j, row); near >= cells.blocked[cell])
+                        visit(cell, i);
             });
         }
     };

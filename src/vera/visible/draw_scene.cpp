@@ -206,7 +206,7 @@ DrawnScene draw_scene(
     const DrawnFaces faces = drawn_faces(
         scene,
         all,
-        settings.style == DrawingStyle::flat ? FaceUnit::plane : FaceUnit::primitive);
+        settings.style == DrawingStyle::ids ? FaceUnit::primitive : FaceUnit::plane);
     ScreenScene screen = screen_scene(all, camera_map, faces.of_facet);
     sort_by_place(screen);
     const WholePieces whole = whole_pieces(screen, progress, cancel);

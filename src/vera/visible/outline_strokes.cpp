@@ -2,6 +2,7 @@
 #include "vera/visible/outline_strokes.h"
 
 #include "vera/math/vec3.h"
+#include "vera/scene/surface.h"
 
 #include <algorithm>
 #include <array>
@@ -27,6 +28,15 @@ Vec3 normal_of_face(const StrokeSources& sources, std::uint32_t face) {
     return normalized(cross(corner(1) - corner(0), corner(2) - corner(0)));
 }
 
+bool are_of_one_item(const Scene& scene, std::uint64_t a, std::uint64_t b) {
+    if (a == b)
+        return true;
+    const PrimitivePath path_a = path_to(scene, a);
+    const PrimitivePath path_b = path_to(scene, b);
+    return path_a.geometry == path_b.geometry && path_a.element.item == path_b.element.item
+        && path_a.to_world == path_b.to_world;
+}
+
 /// Whether both triangles have the place on one of their sides, equally near.
 bool meet_there(const StrokeSources& sources, const VisiblePiece& piece) {
     std::array<DepthPlane, 2> planes;
@@ -47,13 +57,25 @@ bool meet_there(const StrokeSources& sources, const VisiblePiece& piece) {
     return true;
 }
 
+/// Whether faces that meet do so at an angle that is to be seen. Facets of one curved piece do not,
+/// however few there are of them.
+bool is_crease(const StrokeSources& sources, std::uint32_t one, std::uint32_t other) {
+    const Facets::Triangle& a = sources.facets.triangles[sources.faces.first_facet[one]];
+    const Facets::Triangle& b = sources.facets.triangles[sources.faces.first_facet[other]];
+    if (a.primitive == b.primitive && a.piece == b.piece)
+        return false;
+    const double cosine =
+        dot(normal_of_face(sources, one), normal_of_face(sources, other));
+    return std::abs(cosine) < smooth_cosine
+        || !are_of_one_item(sources.scene, a.primitive, b.primitive);
+}
+
 LineClass class_of(const StrokeSources& sources, const VisiblePiece& piece) {
     if (piece.left == no_triangle || piece.right == no_triangle || !meet_there(sources, piece))
         return LineClass::silhouette;
     const std::uint32_t left = sources.screen.triangles[piece.left].source;
     const std::uint32_t right = sources.screen.triangles[piece.right].source;
-    const double cosine = dot(normal_of_face(sources, left), normal_of_face(sources, right));
-    return std::abs(cosine) < smooth_cosine ? LineClass::crease : LineClass::none;
+    return is_crease(sources, left, right) ? LineClass::crease : LineClass::none;
 }
 
 /// Joins pieces of one class end to end.

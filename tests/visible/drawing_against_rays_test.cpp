@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vera/accel/brute_force.h"
+#include "vera/visible/drawn_faces.h"
+#include "vera/visible/penetrations.h"
+#include "vera/visible/projection.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <random>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "accel/random_scene.h"
+#include "visible/map_turns.h"
+
+namespace vera {
+namespace {
+
+/// Cameras all round a scene about the origin, some of parallel rays, some within it.
+Camera camera_number(int number) {
+    const Vec3 to = normalized(
+        std::array<Vec3, 5>{
+            {{1, 0.3, 0.2}, {-0.2, 1, 0.4}, {0.3, -0.2, 1}, {-1, -0.7, 0.1}, {0, 0, 1}}}
+            [static_cast<std::size_t>(number) % 5]);
+    const Vec3 across = normalized(cross(to, {0.1, 0.2, 1}));
+    const Vec3 up = cross(across, to);
+    const double distance = number % 3 == 0 ? 1 : 8;
+    Camera camera;
+    camera.projection = number % 4 == 3 ? Camera::Projection::parallel
+                                        : Camera::Projection::perspective;
+    camera.viewpoint = -distance * to;
+    camera.direction = to;
+    const double half = number % 4 == 3 ? 3 : 0.5 * distance;
+    camera.lower_left = -half * across - half * up;
+    camera.lower_right = half * across - half * up;
+    camera.upper_left = -half * across + half * up;
+    return camera;
+}
+
+constexpr std::uint64_t nothing = ~std::uint64_t{0};
+
+std::uint64_t
+seen_by_ray(const RayIndex& index, const Camera& camera, double x, double y) {
+    QueryRay query;
+    query.ray = view_ray(camera, x, y);
+    std::array<Hit, 1> hits;
+    QueryCounts counts;
+    index.nearest_hits(std::array{query}, hits, counts);
+    return hits[0].found() ? hits[0].face.primitive : nothing;
+}
+
+/// What the ray sees and, if it is the same, those close around it.
+std::optional<std::uint64_t>
+seen_around(const RayIndex& index, const Camera& camera, double x, double y, double off) {
+    const std::uint64_t middle = seen_by_ray(index, camera, x, y);
+    for (const auto& [step_x, step_y] :
+         {std::pair{off, off}, {-off, off}, {off, -off}, {-off, -off}})
+        if (seen_by_ray(index, camera, x + step_x, y + step_y) != middle)
+            return std::nullopt;
+    return middle;
+}
+
+TEST(DrawingAgainstRays, TheSamePrimitivesAreSeenInRandomScenes) {
+    constexpr double pixels = 512;
+    constexpr double deviation = 3.0 / pixels;
+    int compared = 0;
+    for (int number = 0; number < 12 && !HasFailure(); ++number) {
+        testing::RandomSceneSettings settings;
+        settings.items = 10 + static_cast<std::size_t>(number) % 3 * 15;
+        const Scene scene =
+            testing::random_scene(static_cast<std::uint64_t>(number), settings);
+        const Camera camera = camera_number(number);
+        const CameraMap map(camera);
+        const Facets all =
+            facets(scene, [&](Vec3 point) { return map.size_of(deviation, point); });
+        const DrawnFaces faces = drawn_faces(scene, all, FaceUnit::primitive);
+        ScreenScene screen = screen_scene(all, map, faces.of_facet);
+        const double cut = screen.cut_nearness;
+        sort_by_place(screen);
+        const WholePieces whole = whole_pieces(screen);
+        EXPECT_EQ(whole.left, 0U) << "scene " << number;
+        const VisibleMap visible = visible_map(screen, whole.pieces);
+        const auto index = make_brute_force(scene);
+        std::mt19937_64 random(static_cast<std::uint64_t>(number));
+        for (int i = 0; i < 100; ++i) {
+            const double x = std::uniform_real_distribution(0.01, 0.99)(random);
+            const double y = std::uniform_real_distribution(0.01, 0.99)(random);
+            const auto expected = seen_around(*index, camera, x, y, 2 * deviation);
+            if (!expected || cut > 0)
+                continue;
+            ++compared;
+            const auto turns = testing::turns_about(visible, x * screen_size, y * screen_size);
+            const std::string what =
+                "scene " + std::to_string(number) + " at " + std::to_string(x) + " " + std::to_string(y);
+            ASSERT_EQ(turns.size(), *expected == nothing ? 0U : 1U) << what;
+            if (turns.empty())
+                continue;
+            EXPECT_EQ(turns.begin()->second, 1) << what;
+            EXPECT_EQ(
+                all.triangles[faces.first_facet[turns.begin()->first]].primitive, *expected)
+                << what;
+        }
+    }
+    EXPECT_GT(compared, 300);
+}
+
+} // namespace
+} // namespace vera

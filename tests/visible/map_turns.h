@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "vera/visible/visible_map.h"
+
+#include <cstdint>
+#include <map>
+
+namespace vera::testing {
+
+/// How often the rings of each source go round the point, in steps of the grid, added up; sources
+/// of which that is 0 are left out.
+std::map<std::uint32_t, int> turns_about(const VisibleMap& map, double x, double y);
+
+} // namespace vera::testing
