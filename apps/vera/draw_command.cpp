@@ -198,7 +198,8 @@ void add_draw_command(CLI::App& app, Console& console) {
             "how far the facets of curved surfaces may lie off these, in pixels")
         ->type_name("X")
         ->capture_default_str();
-    command->add_option("--page", request->page, "width of the page in millimetres; 0: by the raster")
+    command
+        ->add_option("--page", request->page, "width of the page in millimetres; 0: by the raster")
         ->type_name("MM")
         ->capture_default_str();
     command->add_option("--threads", request->threads, "0: one for each processor")

@@ -23,8 +23,7 @@ ScreenVertex few(std::mt19937_64& random) {
 std::array<ScreenVertex, 3> few_corners(std::mt19937_64& random) {
     while (true) {
         std::array<ScreenVertex, 3> corners = {few(random), few(random), few(random)};
-        const std::int64_t area =
-            orientation(corners[0].point, corners[1].point, corners[2].point);
+        const std::int64_t area = orientation(corners[0].point, corners[1].point, corners[2].point);
         if (area < 0)
             std::swap(corners[0], corners[1]);
         if (area != 0)
@@ -60,8 +59,8 @@ TEST(PlaneComparison, TellsWhoIsNearerAtPlacesAndBesideThem) {
         const PlaneComparison compared(a, b, begin, end);
         const SegmentPlace place = {static_cast<std::int64_t>(random() % 8), 7};
         const auto value = [&](const DepthPlane& plane) {
-            const long double s =
-                static_cast<long double>(place.numerator) / static_cast<long double>(place.denominator);
+            const long double s = static_cast<long double>(place.numerator)
+                / static_cast<long double>(place.denominator);
             const long double x = begin.x + s * (end.x - begin.x) - plane.at.x;
             const long double y = begin.y + s * (end.y - begin.y) - plane.at.y;
             return static_cast<long double>(plane.nearness)

@@ -64,7 +64,9 @@ TEST(WideInteger, DifferencesOfProductsHaveTheSignOfSmallOnes) {
                     // (2^100 + a) (2^100 + b) - (2^100 + c) (2^100 + d)
                     const Int128 large = Int128{1} << 100U;
                     const Int128 by_hand = (Int128{a} + b - c - d) * (Int128{1} << 64U)
-                        + (a * b > c * d ? 1 : a * b < c * d ? -1 : 0);
+                        + (a * b > c * d       ? 1
+                               : a * b < c * d ? -1
+                                               : 0);
                     EXPECT_EQ(
                         sign_of_difference(large + a, large + b, large + c, large + d),
                         sign(by_hand));

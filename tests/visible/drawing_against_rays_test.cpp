@@ -10,26 +10,27 @@
 #include <random>
 #include <string>
 
-#include <gtest/gtest.h>
-
 #include "accel/random_scene.h"
 #include "visible/map_turns.h"
+#include <gtest/gtest.h>
 
 namespace vera {
 namespace {
 
 /// Cameras all round a scene about the origin, some of parallel rays, some within it.
 Camera camera_number(int number) {
-    const Vec3 to = normalized(
-        std::array<Vec3, 5>{
-            {{1, 0.3, 0.2}, {-0.2, 1, 0.4}, {0.3, -0.2, 1}, {-1, -0.7, 0.1}, {0, 0, 1}}}
-            [static_cast<std::size_t>(number) % 5]);
+    const Vec3 to = normalized(std::array<Vec3, 5>{
+        {{1, 0.3, 0.2},
+         {-0.2, 1, 0.4},
+         {0.3, -0.2, 1},
+         {-1, -0.7, 0.1},
+         {0, 0, 1}}}[static_cast<std::size_t>(number) % 5]);
     const Vec3 across = normalized(cross(to, {0.1, 0.2, 1}));
     const Vec3 up = cross(across, to);
     const double distance = number % 3 == 0 ? 1 : 8;
     Camera camera;
-    camera.projection = number % 4 == 3 ? Camera::Projection::parallel
-                                        : Camera::Projection::perspective;
+    camera.projection =
+        number % 4 == 3 ? Camera::Projection::parallel : Camera::Projection::perspective;
     camera.viewpoint = -distance * to;
     camera.direction = to;
     const double half = number % 4 == 3 ? 3 : 0.5 * distance;
@@ -41,8 +42,7 @@ Camera camera_number(int number) {
 
 constexpr std::uint64_t nothing = ~std::uint64_t{0};
 
-std::uint64_t
-seen_by_ray(const RayIndex& index, const Camera& camera, double x, double y) {
+std::uint64_t seen_by_ray(const RayIndex& index, const Camera& camera, double x, double y) {
     QueryRay query;
     query.ray = view_ray(camera, x, y);
     std::array<Hit, 1> hits;
@@ -64,17 +64,15 @@ seen_around(const RayIndex& index, const Camera& camera, double x, double y, dou
 
 TEST(DrawingAgainstRays, TheSamePrimitivesAreSeenInRandomScenes) {
     constexpr double pixels = 512;
-    constexpr double deviation = 3.0 / pixels;
+    constexpr double deviation = 0.5 / pixels;
     int compared = 0;
-    for (int number = 0; number < 12 && !HasFailure(); ++number) {
+    for (int number = 0; number < 8 && !HasFailure(); ++number) {
         testing::RandomSceneSettings settings;
-        settings.items = 10 + static_cast<std::size_t>(number) % 3 * 15;
-        const Scene scene =
-            testing::random_scene(static_cast<std::uint64_t>(number), settings);
+        settings.items = 8 + static_cast<std::size_t>(number) % 3 * 6;
+        const Scene scene = testing::random_scene(static_cast<std::uint64_t>(number), settings);
         const Camera camera = camera_number(number);
         const CameraMap map(camera);
-        const Facets all =
-            facets(scene, [&](Vec3 point) { return map.size_of(deviation, point); });
+        const Facets all = facets(scene, [&](Vec3 point) { return map.size_of(deviation, point); });
         const DrawnFaces faces = drawn_faces(scene, all, FaceUnit::primitive);
         ScreenScene screen = screen_scene(all, map, faces.of_facet);
         const double cut = screen.cut_nearness;
@@ -92,18 +90,17 @@ TEST(DrawingAgainstRays, TheSamePrimitivesAreSeenInRandomScenes) {
                 continue;
             ++compared;
             const auto turns = testing::turns_about(visible, x * screen_size, y * screen_size);
-            const std::string what =
-                "scene " + std::to_string(number) + " at " + std::to_string(x) + " " + std::to_string(y);
+            const std::string what = "scene " + std::to_string(number) + " at " + std::to_string(x)
+                + " " + std::to_string(y);
             ASSERT_EQ(turns.size(), *expected == nothing ? 0U : 1U) << what;
             if (turns.empty())
                 continue;
             EXPECT_EQ(turns.begin()->second, 1) << what;
-            EXPECT_EQ(
-                all.triangles[faces.first_facet[turns.begin()->first]].primitive, *expected)
+            EXPECT_EQ(all.triangles[faces.first_facet[turns.begin()->first]].primitive, *expected)
                 << what;
         }
     }
-    EXPECT_GT(compared, 300);
+    EXPECT_GT(compared, 200);
 }
 
 } // namespace

@@ -31,8 +31,8 @@ ScreenScene layers(std::uint64_t seed, std::size_t count, std::int32_t crossings
                 static_cast<std::int32_t>(below(crossings_per_side + 1)) * spacing,
                 static_cast<std::int32_t>(below(crossings_per_side + 1)) * spacing};
             const std::int64_t within = slants ? below(thickness) : 0;
-            vertex = add_vertex(
-                scene, point, static_cast<std::int64_t>(layer) * thickness + within);
+            vertex =
+                add_vertex(scene, point, static_cast<std::int64_t>(layer) * thickness + within);
         }
         // Numbers that do not go with the order in depth.
         const auto source = static_cast<std::uint32_t>(layer * 7919 % 1009);
@@ -81,8 +81,7 @@ ScreenScene terrain(std::uint64_t seed, std::int32_t columns) {
             const std::int64_t y = std::int64_t{row} * width / 4 + below(3) * width;
             add_vertex(
                 scene,
-                {column * width,
-                 static_cast<std::int32_t>(std::min<std::int64_t>(y, screen_size))},
+                {column * width, static_cast<std::int32_t>(std::min<std::int64_t>(y, screen_size))},
                 depth_size - std::int64_t{row} * (depth_size / (columns + 1)));
         }
     const auto vertex = [&](std::int32_t column, std::int32_t row) {

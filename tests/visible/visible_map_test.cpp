@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "vera/visible/visible_map.h"
-
 #include "vera/base/parallel.h"
 #include "vera/visible/brute_force.h"
 #include "vera/visible/penetrations.h"
+#include "vera/visible/visible_map.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,10 +12,9 @@
 #include <string>
 #include <utility>
 
-#include <gtest/gtest.h>
-
 #include "visible/map_turns.h"
 #include "visible/screen_scenes.h"
+#include <gtest/gtest.h>
 
 namespace vera {
 namespace {
@@ -48,7 +46,8 @@ void expect_like_brute_force(
         const SeenAt expected = seen_at(scene, x, y);
         if (expected.has_side_at)
             continue;
-        const auto turns = turns_about(map, 0.5 * static_cast<double>(x), 0.5 * static_cast<double>(y));
+        const auto turns =
+            turns_about(map, 0.5 * static_cast<double>(x), 0.5 * static_cast<double>(y));
         if (expected.source == no_source) {
             EXPECT_TRUE(turns.empty()) << what << " at " << x << " " << y;
             continue;
@@ -131,9 +130,9 @@ TEST(VisibleMap, HoldsAThousandEdgesThroughOnePoint) {
         const std::int32_t along = i * (screen_size / count);
         scene.vertices.push_back({middle, i});
         scene.vertices.push_back({{along, i % 2 == 0 ? 0 : screen_size}, i});
-        scene.vertices.push_back({{along + screen_size / count * 2 / 3, i % 2 == 0 ? 0 : screen_size}, i});
-        add_triangle(
-            scene, {first, first + 1, first + 2}, static_cast<std::uint32_t>(i));
+        scene.vertices.push_back(
+            {{along + screen_size / count * 2 / 3, i % 2 == 0 ? 0 : screen_size}, i});
+        add_triangle(scene, {first, first + 1, first + 2}, static_cast<std::uint32_t>(i));
     }
     expect_like_brute_force(scene, 1, 500, "star");
     const VisibleMap map = visible_map(scene, cell_raster(scene));
@@ -175,8 +174,10 @@ TEST(VisibleMap, ShowsLikeBruteForceWhatPenetratesButForAFewSteps) {
         const VisibleMap map = visible_map(cut, whole.pieces);
         std::mt19937_64 random(seed);
         for (int i = 0; i < 100; ++i) {
-            const auto x = static_cast<std::int64_t>(random() % (2 * std::uint64_t{screen_size})) | 1;
-            const auto y = static_cast<std::int64_t>(random() % (2 * std::uint64_t{screen_size})) | 1;
+            const auto x =
+                static_cast<std::int64_t>(random() % (2 * std::uint64_t{screen_size})) | 1;
+            const auto y =
+                static_cast<std::int64_t>(random() % (2 * std::uint64_t{screen_size})) | 1;
             const auto expected = seen_around(scene, x, y);
             if (!expected)
                 continue;

@@ -29,7 +29,8 @@ struct DepthPlane {
     /// About; off by no more than 2^-48 of the sum of its terms' sizes.
     double value(double x, double y) const {
         return static_cast<double>(nearness)
-            + (static_cast<double>(along_x) * (x - at.x) + static_cast<double>(along_y) * (y - at.y))
+            + (static_cast<double>(along_x) * (x - at.x)
+               + static_cast<double>(along_y) * (y - at.y))
             / static_cast<double>(area);
     }
 };

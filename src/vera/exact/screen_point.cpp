@@ -55,15 +55,11 @@ int order(const RationalPoint& a, const RationalPoint& b) {
         return order(
             SegmentPlace{numerator_a, denominator_a}, SegmentPlace{numerator_b, denominator_b});
     };
-    const int of_x = by(
-        a.whole.x, a.x_numerator, a.denominator, b.whole.x, b.x_numerator, b.denominator);
-    return of_x != 0 ? of_x
-                     : by(a.whole.y,
-                          a.y_numerator,
-                          a.denominator,
-                          b.whole.y,
-                          b.y_numerator,
-                          b.denominator);
+    const int of_x =
+        by(a.whole.x, a.x_numerator, a.denominator, b.whole.x, b.x_numerator, b.denominator);
+    return of_x != 0
+        ? of_x
+        : by(a.whole.y, a.y_numerator, a.denominator, b.whole.y, b.y_numerator, b.denominator);
 }
 
 } // namespace vera

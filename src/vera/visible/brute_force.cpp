@@ -45,8 +45,7 @@ SeenAt seen_at(const ScreenScene& scene, std::int64_t x_in_halves, std::int64_t 
         if (included < 0)
             continue;
         result.has_side_at = result.has_side_at || included == 0;
-        const Nearness here =
-            doubled_nearness(depth_plane(corners), x_in_halves, y_in_halves);
+        const Nearness here = doubled_nearness(depth_plane(corners), x_in_halves, y_in_halves);
         const int ahead = result.source == no_source
             ? 1
             : sign_of_difference(

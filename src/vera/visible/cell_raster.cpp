@@ -87,10 +87,8 @@ public:
 private:
     void gather(std::uint32_t edge);
     void add_cover(std::uint32_t triangle);
-    void add_beside(
-        std::uint32_t triangle,
-        const std::array<ScreenPoint, 3>& corners,
-        std::size_t side);
+    void
+    add_beside(std::uint32_t triangle, const std::array<ScreenPoint, 3>& corners, std::size_t side);
     void add_across(
         std::uint32_t triangle,
         const std::array<ScreenPoint, 3>& corners,
@@ -100,10 +98,11 @@ private:
     void change_active(const Event& event);
     const Cover* nearest(std::uint8_t side, const Event& first, const Event& last);
     int nearer(std::uint32_t a, std::uint32_t b, double first, double last);
+
     NearnessPlace place_at(double place) const {
-        return {
-            begin_.x + place * (end_.x - begin_.x), begin_.y + place * (end_.y - begin_.y)};
+        return {begin_.x + place * (end_.x - begin_.x), begin_.y + place * (end_.y - begin_.y)};
     }
+
     std::uint32_t source_of(std::uint32_t triangle) const {
         return triangle == no_triangle ? no_source : raster_.scene.triangles[triangle].source;
     }
@@ -140,9 +139,7 @@ void EdgeSweep::gather(std::uint32_t edge) {
 
 /// Of a triangle with a side in the line of the edge, from corner `side` on.
 void EdgeSweep::add_beside(
-    std::uint32_t triangle,
-    const std::array<ScreenPoint, 3>& corners,
-    std::size_t side) {
+    std::uint32_t triangle, const std::array<ScreenPoint, 3>& corners, std::size_t side) {
     SegmentPlace first = place_on(begin_, end_, corners[side]);
     SegmentPlace last = place_on(begin_, end_, corners[(side + 1) % 3]);
     const bool is_left = order(first, last) < 0; // since corners go round to the left
@@ -261,8 +258,7 @@ const Cover* EdgeSweep::nearest(std::uint8_t side, const Event& first, const Eve
         const Cover& cover = covers_[i];
         if ((cover.sides & side) == 0)
             continue;
-        if (best == nullptr
-            || nearer(cover.triangle, best->triangle, first.value, last.value) > 0)
+        if (best == nullptr || nearer(cover.triangle, best->triangle, first.value, last.value) > 0)
             best = &cover;
     }
     return best;
@@ -405,8 +401,7 @@ cell_raster(const ScreenScene& scene, const Progress& progress, const CancelFlag
         pieces += of_part.pieces.size();
     result.pieces.reserve(pieces);
     for (VisiblePieces& of_part : parts) {
-        result.pieces.insert(
-            result.pieces.end(), of_part.pieces.begin(), of_part.pieces.end());
+        result.pieces.insert(result.pieces.end(), of_part.pieces.begin(), of_part.pieces.end());
         result.penetrating.insert(
             result.penetrating.end(), of_part.penetrating.begin(), of_part.penetrating.end());
     }

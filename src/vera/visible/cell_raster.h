@@ -33,10 +33,10 @@ struct VisiblePieces {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> penetrating;
 };
 
-/// By Franklin's cells: an edge is compared with what lies in the cells along it alone, all in exact
-/// arithmetic (A linear time exact hidden surface algorithm, 1980). The time grows in proportion to
-/// the triangles where what is hidden lies behind triangles larger than cells. The same pieces in
-/// the same order for any number of threads.
+/// By Franklin's cells: an edge is compared with what lies in the cells along it alone, all in
+/// exact arithmetic (A linear time exact hidden surface algorithm, 1980). The time grows in
+/// proportion to the triangles where what is hidden lies behind triangles larger than cells. The
+/// same pieces in the same order for any number of threads.
 VisiblePieces cell_raster(
     const ScreenScene& scene, const Progress& progress = {}, const CancelFlag* cancel = nullptr);
 

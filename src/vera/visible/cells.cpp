@@ -68,8 +68,7 @@ RowOfCells row_of_cells(
     if (!(all.left <= all.right))
         return row;
     const auto column = [&](double x) {
-        return cells.cell_of(
-            static_cast<std::int32_t>(std::clamp<double>(x, 0, screen_size)));
+        return cells.cell_of(static_cast<std::int32_t>(std::clamp<double>(x, 0, screen_size)));
     };
     row.touched = {column(all.left - 1), column(all.right + 1)};
     // Between the chords' ends the sides bulge outward.
@@ -87,8 +86,8 @@ RowOfCells row_of_cells(
 template <typename Visit>
 void for_each_row_of(
     const Cells& cells, const std::array<ScreenVertex, 3>& corners, const Visit& visit) {
-    const auto [lowest, highest] = std::minmax(
-        {corners[0].point.y, corners[1].point.y, corners[2].point.y});
+    const auto [lowest, highest] =
+        std::minmax({corners[0].point.y, corners[1].point.y, corners[2].point.y});
     const std::int32_t last = cells.cell_of(highest);
     for (std::int32_t row = cells.cell_of(lowest); row <= last; ++row) {
         const std::int64_t low = std::int64_t{row} << cells.shift;
@@ -103,8 +102,8 @@ std::int64_t least_nearness(const Cells& cells, const DepthPlane& plane, ScreenP
     for (const double x : {0.0, size})
         for (const double y : {0.0, size})
             least = std::min(least, plane.value(lower.x + x, lower.y + y));
-    // Within a triangle the terms of value() are at most 2^34, for slivers far more; but those cover
-    // no cell.
+    // Within a triangle the terms of value() are at most 2^34, for slivers far more; but those
+    // cover no cell.
     return static_cast<std::int64_t>(std::floor(least)) - 1;
 }
 
@@ -115,8 +114,7 @@ std::int64_t nearest(const std::array<ScreenVertex, 3>& corners) {
 int shift_for(std::size_t triangles) {
     // Two to four cells a side for the root of their number: the optimum is flat.
     int bits = 1;
-    while (bits < screen_bits - 4
-           && std::ldexp(1.0, 2 * bits) < 4 * static_cast<double>(triangles))
+    while (bits < screen_bits - 4 && std::ldexp(1.0, 2 * bits) < 4 * static_cast<double>(triangles))
         ++bits;
     return screen_bits - bits;
 }
@@ -159,8 +157,7 @@ Cells cells_of(const ScreenScene& scene, std::span<const DepthPlane> planes) {
         cells.starts[i] += cells.starts[i - 1];
     cells.triangles.resize(cells.starts.back());
     std::vector<std::uint32_t> next(cells.starts.begin(), cells.starts.end() - 1);
-    for_each_entry(
-        [&](std::size_t cell, std::uint32_t i) { cells.triangles[next[cell]++] = i; });
+    for_each_entry([&](std::size_t cell, std::uint32_t i) { cells.triangles[next[cell]++] = i; });
     return cells;
 }
 

@@ -17,7 +17,7 @@ namespace vera {
 struct Cells {
     int shift = screen_bits; ///< a cell is 2^shift steps wide and high
     std::int32_t per_side = 1;
-    std::vector<std::uint32_t> starts;    ///< cell i has the triangles [starts[i]] to [starts[i + 1]]
+    std::vector<std::uint32_t> starts; ///< cell i has the triangles [starts[i]] to [starts[i + 1]]
     std::vector<std::uint32_t> triangles; ///< in ascending order within a cell
     std::vector<std::int64_t> blocked;    ///< what is less near is hidden everywhere in the cell
 
@@ -43,7 +43,8 @@ Cells cells_of(const ScreenScene& scene, std::span<const DepthPlane> planes);
 template <typename Visit>
 bool for_each_cell_along(const Cells& cells, ScreenPoint a, ScreenPoint b, const Visit& visit) {
     const ScreenStep whole = step(a, b);
-    const bool by_columns = (whole.x < 0 ? -whole.x : whole.x) >= (whole.y < 0 ? -whole.y : whole.y);
+    const bool by_columns =
+        (whole.x < 0 ? -whole.x : whole.x) >= (whole.y < 0 ? -whole.y : whole.y);
     // In axes along which the segment is longer, and across.
     const auto along = [&](ScreenPoint p) { return by_columns ? p.x : p.y; };
     const auto across = [&](ScreenPoint p) { return by_columns ? p.y : p.x; };

@@ -199,14 +199,12 @@ DrawnScene draw_scene(
     const CancelFlag* cancel) {
     const CameraMap camera_map(camera);
     const double part = settings.deviation / picture.width;
-    const Facets all =
-        facets(scene, [&](Vec3 point) { return camera_map.size_of(part, point); }, cancel);
+    const Facets all = facets(
+        scene, [&](Vec3 point) { return camera_map.size_of(part, point); }, cancel);
     if (settings.style == DrawingStyle::ids)
         check_numbers(all);
     const DrawnFaces faces = drawn_faces(
-        scene,
-        all,
-        settings.style == DrawingStyle::ids ? FaceUnit::primitive : FaceUnit::plane);
+        scene, all, settings.style == DrawingStyle::ids ? FaceUnit::primitive : FaceUnit::plane);
     ScreenScene screen = screen_scene(all, camera_map, faces.of_facet);
     sort_by_place(screen);
     const WholePieces whole = whole_pieces(screen, progress, cancel);

@@ -20,7 +20,8 @@ enum class DrawingStyle : std::uint8_t {
 
 struct DrawSettings {
     DrawingStyle style = DrawingStyle::flat;
-    double deviation = 0.1; ///< how far the plane facets of what is curved may lie off it, in pixels
+    double deviation =
+        0.1; ///< how far the plane facets of what is curved may lie off it, in pixels
 };
 
 struct DrawnScene {
@@ -29,8 +30,8 @@ struct DrawnScene {
     std::size_t visible_faces = 0;
     std::size_t cut_rounds = 0;  ///< how often what passes through other things was cut
     std::size_t penetrating = 0; ///< pairs of facets that still do: 0 but in the worst tangles
-    double cut_nearness = 0;     ///< what is so near the view point was left out, by the distance of
-                                 ///< the image plane; 0: nothing
+    double cut_nearness = 0; ///< what is so near the view point was left out, by the distance of
+                             ///< the image plane; 0: nothing
 };
 
 /// A drawing of what the camera sees, every face an outline: as exact as a grid of 2^22 steps

@@ -22,8 +22,7 @@ enum class LineClass : std::uint8_t { none, silhouette, crease };
 constexpr double smooth_cosine = 0.9;
 
 Vec3 normal_of_face(const StrokeSources& sources, std::uint32_t face) {
-    const Facets::Triangle& facet =
-        sources.facets.triangles[sources.faces.first_facet[face]];
+    const Facets::Triangle& facet = sources.facets.triangles[sources.faces.first_facet[face]];
     const auto corner = [&](std::size_t i) { return sources.facets.corners[facet.corners[i]]; };
     return normalized(cross(corner(1) - corner(0), corner(2) - corner(0)));
 }
@@ -64,8 +63,7 @@ bool is_crease(const StrokeSources& sources, std::uint32_t one, std::uint32_t ot
     const Facets::Triangle& b = sources.facets.triangles[sources.faces.first_facet[other]];
     if (a.primitive == b.primitive && a.piece == b.piece)
         return false;
-    const double cosine =
-        dot(normal_of_face(sources, one), normal_of_face(sources, other));
+    const double cosine = dot(normal_of_face(sources, one), normal_of_face(sources, other));
     return std::abs(cosine) < smooth_cosine
         || !are_of_one_item(sources.scene, a.primitive, b.primitive);
 }

@@ -26,7 +26,7 @@ struct WholePieces {
 };
 
 /// cell_raster() of the scene after everything was cut in it that is seen to penetrate.
-WholePieces whole_pieces(
-    ScreenScene& scene, const Progress& progress = {}, const CancelFlag* cancel = nullptr);
+WholePieces
+whole_pieces(ScreenScene& scene, const Progress& progress = {}, const CancelFlag* cancel = nullptr);
 
 } // namespace vera

@@ -33,8 +33,8 @@ public:
             points_[count_++] = corner;
     }
 
-    /// Leaves where inside(point), which is affine, is not negative. adjust(point) is called for new
-    /// points, on which it is 0.
+    /// Leaves where inside(point), which is affine, is not negative. adjust(point) is called for
+    /// new points, on which it is 0.
     template <typename Inside, typename Adjust>
     void cut(const Inside& inside, const Adjust& adjust) {
         const std::array<ImagePoint, most> from = points_;
@@ -79,8 +79,7 @@ private:
 /// What lies in the frame, and no nearer than w = nearest.
 void cut_to_frame(CutPolygon& polygon, double nearest) {
     polygon.cut(
-        [&](const ImagePoint& p) { return p.w - nearest; },
-        [&](ImagePoint& p) { p.w = nearest; });
+        [&](const ImagePoint& p) { return p.w - nearest; }, [&](ImagePoint& p) { p.w = nearest; });
     polygon.cut([](const ImagePoint& p) { return p.x; }, [](ImagePoint& p) { p.x = 0; });
     polygon.cut([](const ImagePoint& p) { return p.w - p.x; }, [](ImagePoint& p) { p.x = p.w; });
     polygon.cut([](const ImagePoint& p) { return p.y; }, [](ImagePoint& p) { p.y = 0; });
@@ -177,7 +176,8 @@ struct Snap {
 /// Calls visit(points) for what of the facet is seen: its own three corners, or those that cutting
 /// left.
 template <typename Visit>
-void for_visible_part(const std::array<ImagePoint, 3>& corners, double nearest, const Visit& visit) {
+void for_visible_part(
+    const std::array<ImagePoint, 3>& corners, double nearest, const Visit& visit) {
     if (are_all_outside(corners))
         return;
     const bool is_whole = std::all_of(corners.begin(), corners.end(), [&](const ImagePoint& p) {
@@ -202,7 +202,8 @@ CameraMap::CameraMap(const Camera& camera)
     if (!from_world) {
         Diagnostic problem;
         problem.problem = "the camera sees its image plane edge-on";
-        problem.remedy = "let the three corners of the picture span a plane, and the view not lie in it";
+        problem.remedy =
+            "let the three corners of the picture span a plane, and the view not lie in it";
         throw InputError({problem});
     }
     from_world_ = *from_world;
@@ -237,11 +238,10 @@ screen_scene(const Facets& facets, const CameraMap& map, std::span<const std::ui
     Snap snap = {map.is_parallel(), {}};
     const double tiny = farthest * 0x1p-40;
     for (const Facets::Triangle& facet : facets.triangles)
-        for_visible_part(
-            corners_of_facet(facet), tiny, [&](std::span<const ImagePoint> part) {
-                for (const ImagePoint& point : part)
-                    snap.range.include(map.is_parallel() ? point.depth : point.w);
-            });
+        for_visible_part(corners_of_facet(facet), tiny, [&](std::span<const ImagePoint> part) {
+            for (const ImagePoint& point : part)
+                snap.range.include(map.is_parallel() ? point.depth : point.w);
+        });
     ScreenScene scene;
     if (!map.is_parallel() && snap.range.least < nearest_part * snap.range.most) {
         snap.range.least = nearest_part * snap.range.most;
@@ -252,9 +252,7 @@ screen_scene(const Facets& facets, const CameraMap& map, std::span<const std::ui
     VertexNumbers numbers(scene.vertices);
     for (std::size_t i = 0; i < facets.triangles.size(); ++i)
         for_visible_part(
-            corners_of_facet(facets.triangles[i]),
-            nearest,
-            [&](std::span<const ImagePoint> part) {
+            corners_of_facet(facets.triangles[i]), nearest, [&](std::span<const ImagePoint> part) {
                 if (part.size() < 3)
                     return;
                 const std::uint32_t first = numbers.number(snap.vertex(part[0]));

@@ -30,8 +30,7 @@ std::uint64_t morton_code(const std::array<ScreenVertex, 3>& corners) {
 
 } // namespace
 
-void add_triangle(
-    ScreenScene& scene, std::array<std::uint32_t, 3> vertices, std::uint32_t source) {
+void add_triangle(ScreenScene& scene, std::array<std::uint32_t, 3> vertices, std::uint32_t source) {
     const auto point = [&](std::size_t i) { return scene.vertices[vertices[i]].point; };
     const std::int64_t area = orientation(point(0), point(1), point(2));
     if (area == 0)

@@ -36,8 +36,7 @@ corners_of(const ScreenScene& scene, const ScreenTriangle& triangle) {
 
 /// Adds a triangle with these corners, turned to the left. One without an area is left out: it is
 /// seen edge-on.
-void add_triangle(
-    ScreenScene& scene, std::array<std::uint32_t, 3> vertices, std::uint32_t source);
+void add_triangle(ScreenScene& scene, std::array<std::uint32_t, 3> vertices, std::uint32_t source);
 
 /// Sorts the triangles along a curve that fills the picture (Morton 1966), and the vertices by who
 /// uses them first: neighbours then stand close together in memory.

@@ -111,8 +111,7 @@ struct Loose {
 };
 
 /// Joins each end to the nearest beginning of its source that is left.
-void join(
-    Loose loose, const Ways& ways, std::vector<std::uint32_t>& following, VisibleMap& map) {
+void join(Loose loose, const Ways& ways, std::vector<std::uint32_t>& following, VisibleMap& map) {
     const auto by_source = [&](std::uint32_t a, std::uint32_t b) {
         return ways.source[a] != ways.source[b] ? ways.source[a] < ways.source[b] : a < b;
     };

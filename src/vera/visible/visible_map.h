@@ -26,12 +26,12 @@ struct VisibleMap {
 
     std::vector<RationalPoint> vertices;
     std::vector<std::array<std::uint32_t, 2>> piece_ends; ///< the vertices of each piece
-    std::vector<Ring> rings; ///< by source
+    std::vector<Ring> rings;                              ///< by source
     std::vector<std::uint32_t> ring_vertices;
     std::vector<std::uint32_t> ring_across; ///< sources, or no_source
     /// How often ways round what is seen had to be joined by a straight one. None where nothing was
-    /// cut; else two surfaces may part what is seen along lines a step from each other, between which
-    /// neither is seen for sure.
+    /// cut; else two surfaces may part what is seen along lines a step from each other, between
+    /// which neither is seen for sure.
     std::size_t joined = 0;
 
     std::span<const std::uint32_t> vertices_of(const Ring& ring) const {
