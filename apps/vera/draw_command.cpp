@@ -2,6 +2,7 @@
 #include "vera/base/output_file.h"
 #include "vera/base/version.h"
 #include "vera/drawing/drawing_file.h"
+#include "vera/render/exposure.h"
 #include "vera/visible/draw_scene.h"
 
 #include <filesystem>
@@ -13,6 +14,7 @@
 #include "option_values.h"
 #include "prepared_scene.h"
 #include "progress_display.h"
+#include "scene_index.h"
 #include "stopwatch.h"
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -72,6 +74,19 @@ DrawingStyle style_of(const Request& request) {
         fmt::format("--style does not know '{}'; it knows flat, ids, lines", request.style));
 }
 
+/// Scales the light as EXPMES would for a picture.
+void expose_as_picture(PreparedScene& prepared, const Console& console) {
+    if (prepared.settings.exposure.value_or(0) <= 0)
+        return;
+    const CancellableWork work;
+    const auto index = scene_index(prepared.scene, {}, {}, console.cancel);
+    TracedScene traced = traced_scene(prepared.scene, *index, prepared.settings, &console.cancel);
+    RenderStatistics statistics;
+    expose(traced, prepared.camera, *prepared.settings.exposure, statistics);
+    prepared.scene.lights = traced.illumination.lights;
+    prepared.settings.ambient = traced.illumination.ambient;
+}
+
 void print_notes(const DrawnScene& drawn, const Console& console) {
     if (drawn.cut_nearness > 0)
         print_note(
@@ -122,6 +137,8 @@ void draw(const Request& request, const Console& console) {
     OutputFile file(request.output);
     report.read_seconds = watch.lap();
 
+    if (settings.style == DrawingStyle::flat)
+        expose_as_picture(prepared, console);
     DrawnScene drawn;
     {
         const CancellableWork work;

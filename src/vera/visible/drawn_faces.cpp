@@ -9,17 +9,22 @@ namespace vera {
 
 namespace {
 
-bool is_plane(const PrimitivePath& path) {
+/// Whether all facets of that piece of the primitive lie in one plane.
+bool is_plane(const PrimitivePath& path, std::uint32_t piece) {
     const Item& item = path.geometry->items[path.element.item];
     switch (item.kind) {
     case ItemKind::triangle:
     case ItemKind::mesh:
-        return true;
     case ItemKind::polygon:
-        return path.geometry->polygons[item.index].shape != Polygon::Shape::split_quadrangle;
+        return true;
+    case ItemKind::rotational_shape: {
+        const RotationalShape& shape = path.geometry->rotational_shapes[item.index];
+        const ContourPiece& contour = shape.contour[piece];
+        const double begin = piece == 0 ? shape.start.h : shape.contour[piece - 1].end.h;
+        return contour.kind == ContourPiece::Kind::line && contour.end.h == begin;
+    }
     case ItemKind::sphere:
     case ItemKind::patch:
-    case ItemKind::rotational_shape:
     case ItemKind::subscene_call:
         break;
     }
@@ -33,11 +38,14 @@ DrawnFaces drawn_faces(const Scene& scene, const Facets& facets, FaceUnit unit) 
     faces.of_facet.reserve(facets.triangles.size());
     bool in_one_piece = true;
     for (std::size_t i = 0; i < facets.triangles.size(); ++i) {
-        const std::uint64_t primitive = facets.triangles[i].primitive;
-        const bool begins = i == 0 || primitive != facets.triangles[i - 1].primitive;
+        const Facets::Triangle& facet = facets.triangles[i];
+        const bool next_primitive = i == 0 || facet.primitive != facets.triangles[i - 1].primitive;
+        const bool next_piece = next_primitive || facet.piece != facets.triangles[i - 1].piece;
+        if (next_piece && unit == FaceUnit::plane)
+            in_one_piece = is_plane(path_to(scene, facet.primitive), facet.piece);
+        const bool begins =
+            next_primitive || (unit == FaceUnit::plane && (next_piece || !in_one_piece));
         if (begins)
-            in_one_piece = unit == FaceUnit::primitive || is_plane(path_to(scene, primitive));
-        if (begins || !in_one_piece)
             faces.first_facet.push_back(static_cast<std::uint32_t>(i));
         faces.of_facet.push_back(static_cast<std::uint32_t>(faces.first_facet.size() - 1));
     }

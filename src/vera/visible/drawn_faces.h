@@ -12,7 +12,7 @@ namespace vera {
 /// What is drawn in one piece.
 enum class FaceUnit : std::uint8_t {
     primitive, ///< curved ones as well
-    plane      ///< plane primitives, and of others each facet
+    plane      ///< plane primitives and the plane pieces of others, and else each facet
 };
 
 /// What is told apart in a drawing, numbered in the order of the text.
