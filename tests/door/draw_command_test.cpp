@@ -119,6 +119,17 @@ TEST(DrawCommand, DrawsASphereAsOneClosedLine) {
     EXPECT_TRUE(holds(svg, "z\"/>")) << svg;
 }
 
+TEST(DrawCommand, DrawsNoLinesWhereTheFrameCutsASurface) {
+    const ScratchFolder folder;
+    folder.write("a.vera", view + "P4 -9 0 9  9 0 9  9 0 -9  -9 0 -9\n");
+    const ProgramRun run = run_vera(folder, "draw a.vera --style lines --precision 1 -o a.svg");
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const std::string svg = folder.read("a.svg");
+    EXPECT_EQ(count_of(svg, "<path "), 1U) << svg;
+    EXPECT_TRUE(holds(svg, "<path d=\"m0 376h512\"/>") || holds(svg, "<path d=\"m512 376h-512\"/>"))
+        << svg;
+}
+
 TEST(DrawCommand, WritesToStandardOutputAndReadsStandardInput) {
     const ScratchFolder folder;
     folder.write("a.vera", small_scene);
