@@ -2,11 +2,9 @@
 #include "vera/visible/draw_scene.h"
 
 #include "vera/base/diagnostic.h"
-#include "vera/drawing/drawing_file.h"
 #include "vera/shade/firmament.h"
 #include "vera/shade/lighting.h"
 #include "vera/visible/drawn_faces.h"
-#include "vera/visible/foreign_borders.h"
 #include "vera/visible/outline_strokes.h"
 #include "vera/visible/penetrations.h"
 #include "vera/visible/projection.h"
@@ -17,7 +15,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace vera {
@@ -116,54 +113,8 @@ std::string group_name(const Scene& scene, std::uint64_t primitive) {
     return item.line == 0 ? name : name + ", line " + std::to_string(item.line);
 }
 
-/// Of each face that is seen, the number of its thing among those that are, from 1 on: of the item
-/// or, of a curved one, of its piece.
-std::vector<std::uint32_t> thing_numbers(const Painted& painted) {
-    std::vector<std::uint32_t> numbers(painted.faces.first_facet.size());
-    std::uint32_t number = 0;
-    const Facets::Triangle* last = nullptr;
-    for (const VisibleMap::Ring& ring : painted.map.rings) {
-        const Facets::Triangle& facet =
-            painted.facets.triangles[painted.faces.first_facet[ring.source]];
-        if (last == nullptr || facet.piece != last->piece
-            || !are_of_one_item(painted.scene, facet.primitive, last->primitive))
-            ++number;
-        last = &facet;
-        numbers[ring.source] = number;
-    }
-    return numbers;
-}
-
-/// Where a thing borders on another that is painted later, or on the background.
-ForeignBorders foreign_borders(const Painted& painted, std::span<const std::uint32_t> things) {
-    std::vector<ForeignBorders::Border> borders;
-    for (const VisibleMap::Ring& ring : painted.map.rings) {
-        const auto vertices = painted.map.vertices_of(ring);
-        for (std::size_t i = 0; i < vertices.size(); ++i) {
-            const std::uint32_t across = painted.map.ring_across[ring.first + i];
-            const bool is_outline = across == no_source;
-            if (!is_outline && (across < ring.source || things[across] == things[ring.source]))
-                continue;
-            borders.push_back(
-                {drawn_point(painted, vertices[i]),
-                 drawn_point(painted, vertices[i + 1 == vertices.size() ? 0 : i + 1]),
-                 is_outline ? 0 : ring.source + 1,
-                 is_outline ? 0 : things[ring.source]});
-        }
-    }
-    return {
-        static_cast<double>(painted.picture.width),
-        static_cast<double>(painted.picture.height),
-        DrawingSettings().seam_width / 2,
-        std::move(borders)};
-}
-
 /// The rings of one face, from first to last in the map, as an outline without colour.
-FilledOutline outline_of(
-    const Painted& painted,
-    std::span<const VisibleMap::Ring> rings,
-    std::span<const std::uint32_t> things,
-    const ForeignBorders& foreign) {
+FilledOutline outline_of(const Painted& painted, std::span<const VisibleMap::Ring> rings) {
     FilledOutline outline;
     for (const VisibleMap::Ring& ring : rings) {
         const auto vertices = painted.map.vertices_of(ring);
@@ -173,14 +124,8 @@ FilledOutline outline_of(
             points.push_back(drawn_point(painted, vertex));
         for (std::size_t i = 0; i < points.size(); ++i) {
             const std::uint32_t across = painted.map.ring_across[ring.first + i];
-            if (across == no_source || across < ring.source)
-                continue;
-            for (std::vector<DrawingPoint>& part : foreign.clear_parts(
-                     points[i],
-                     points[i + 1 == points.size() ? 0 : i + 1],
-                     ring.source + 1,
-                     things[ring.source]))
-                outline.seams.push_back(std::move(part));
+            if (across != no_source && across > ring.source)
+                outline.seams.push_back({points[i], points[i + 1 == points.size() ? 0 : i + 1]});
         }
     }
     return outline;
@@ -200,8 +145,6 @@ color_of(const Painted& painted, std::uint32_t face, std::span<const VisibleMap:
 
 void add_fills(const Painted& painted, Drawing& drawing) {
     const std::span<const VisibleMap::Ring> rings = painted.map.rings;
-    const std::vector<std::uint32_t> things = thing_numbers(painted);
-    const ForeignBorders foreign = foreign_borders(painted, things);
     std::uint64_t grouped = 0;
     std::string group;
     for (std::size_t first = 0, last = 0; first < rings.size(); first = last) {
@@ -214,7 +157,7 @@ void add_fills(const Painted& painted, Drawing& drawing) {
         if (group.empty() || primitive != grouped)
             group = group_name(painted.scene, primitive);
         grouped = primitive;
-        FilledOutline outline = outline_of(painted, own, things, foreign);
+        FilledOutline outline = outline_of(painted, own);
         outline.id = "face-" + std::to_string(primitive + 1);
         outline.group = group;
         outline.color = color_of(painted, face, own);

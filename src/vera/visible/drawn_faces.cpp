@@ -44,13 +44,4 @@ DrawnFaces drawn_faces(const Scene& scene, const Facets& facets, FaceUnit unit) 
     return faces;
 }
 
-bool are_of_one_item(const Scene& scene, std::uint64_t a, std::uint64_t b) {
-    if (a == b)
-        return true;
-    const PrimitivePath path_a = path_to(scene, a);
-    const PrimitivePath path_b = path_to(scene, b);
-    return path_a.geometry == path_b.geometry && path_a.element.item == path_b.element.item
-        && path_a.to_world == path_b.to_world;
-}
-
 } // namespace vera

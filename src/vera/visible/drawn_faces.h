@@ -23,7 +23,4 @@ struct DrawnFaces {
 
 DrawnFaces drawn_faces(const Scene& scene, const Facets& facets, FaceUnit unit);
 
-/// Whether both primitives are parts of one item, under the same calls.
-bool are_of_one_item(const Scene& scene, std::uint64_t a, std::uint64_t b);
-
 } // namespace vera

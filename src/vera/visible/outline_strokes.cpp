@@ -2,6 +2,7 @@
 #include "vera/visible/outline_strokes.h"
 
 #include "vera/math/vec3.h"
+#include "vera/scene/surface.h"
 
 #include <algorithm>
 #include <array>
@@ -24,6 +25,15 @@ Vec3 normal_of_face(const StrokeSources& sources, std::uint32_t face) {
     const Facets::Triangle& facet = sources.facets.triangles[sources.faces.first_facet[face]];
     const auto corner = [&](std::size_t i) { return sources.facets.corners[facet.corners[i]]; };
     return normalized(cross(corner(1) - corner(0), corner(2) - corner(0)));
+}
+
+bool are_of_one_item(const Scene& scene, std::uint64_t a, std::uint64_t b) {
+    if (a == b)
+        return true;
+    const PrimitivePath path_a = path_to(scene, a);
+    const PrimitivePath path_b = path_to(scene, b);
+    return path_a.geometry == path_b.geometry && path_a.element.item == path_b.element.item
+        && path_a.to_world == path_b.to_world;
 }
 
 /// Whether both triangles have the place on one of their sides, equally near.
