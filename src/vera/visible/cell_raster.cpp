@@ -21,6 +21,7 @@ struct Raster {
     const ScreenScene& scene;
     std::vector<DepthPlane> planes;
     std::vector<NearnessSlope> slopes;
+    std::vector<std::array<ScreenPoint, 3>> corners; ///< of the triangles, side by side
     ScreenEdges edges;
     Cells cells;
     std::vector<std::uint8_t> is_hidden; ///< edges that lie behind what covers all their cells
@@ -184,14 +185,23 @@ void EdgeSweep::add_across(
 }
 
 void EdgeSweep::add_cover(std::uint32_t triangle) {
-    const auto& vertices = raster_.scene.triangles[triangle].vertices;
-    std::array<ScreenPoint, 3> corners;
+    const std::array<ScreenPoint, 3>& corners = raster_.corners[triangle];
+    const auto is_beyond = [&](auto coordinate) {
+        const std::int32_t least = std::min(coordinate(begin_), coordinate(end_));
+        const std::int32_t most = std::max(coordinate(begin_), coordinate(end_));
+        return (coordinate(corners[0]) < least && coordinate(corners[1]) < least
+                && coordinate(corners[2]) < least)
+            || (coordinate(corners[0]) > most && coordinate(corners[1]) > most
+                && coordinate(corners[2]) > most);
+    };
+    if (is_beyond([](ScreenPoint p) { return p.x; })
+        || is_beyond([](ScreenPoint p) { return p.y; }))
+        return;
     std::array<std::int64_t, 3> sides;
     std::size_t on_line = 0;
     bool left = false;
     bool right = false;
     for (std::size_t i = 0; i < 3; ++i) {
-        corners[i] = raster_.scene.vertices[vertices[i]].point;
         sides[i] = orientation(begin_, end_, corners[i]);
         on_line += sides[i] == 0 ? 1 : 0;
         left = left || sides[i] > 0;
@@ -342,12 +352,15 @@ bool is_hidden(const Raster& raster, const ScreenEdges::Edge& edge) {
 }
 
 Raster raster_of(const ScreenScene& scene) {
-    Raster raster = {scene, {}, {}, {}, {}, {}};
+    Raster raster = {scene, {}, {}, {}, {}, {}, {}};
     raster.planes.resize(scene.triangles.size());
     raster.slopes.resize(scene.triangles.size());
+    raster.corners.resize(scene.triangles.size());
     for (std::size_t i = 0; i < raster.planes.size(); ++i) {
-        raster.planes[i] = depth_plane(corners_of(scene, scene.triangles[i]));
+        const std::array<ScreenVertex, 3> corners = corners_of(scene, scene.triangles[i]);
+        raster.planes[i] = depth_plane(corners);
         raster.slopes[i] = nearness_slope(raster.planes[i]);
+        raster.corners[i] = {corners[0].point, corners[1].point, corners[2].point};
     }
     raster.edges = screen_edges(scene);
     raster.cells = cells_of(scene, raster.planes);

@@ -113,22 +113,80 @@ std::string group_name(const Scene& scene, std::uint64_t primitive) {
     return item.line == 0 ? name : name + ", line " + std::to_string(item.line);
 }
 
-/// The rings of one face, from first to last in the map, as an outline without colour.
-FilledOutline outline_of(const Painted& painted, std::span<const VisibleMap::Ring> rings) {
-    FilledOutline outline;
+/// The rings of one face after the other.
+class FaceRings {
+public:
+    explicit FaceRings(const VisibleMap& map)
+        : map_(map) {
+        for (std::size_t i = 0; i < map.rings.size(); ++i)
+            if (i == 0 || map.rings[i].source != map.rings[i - 1].source)
+                starts_.push_back(i);
+        starts_.push_back(map.rings.size());
+    }
+
+    std::size_t count() const { return starts_.size() - 1; }
+
+    std::span<const VisibleMap::Ring> operator[](std::size_t number) const {
+        return std::span(map_.rings).subspan(starts_[number], starts_[number + 1] - starts_[number]);
+    }
+
+    /// Of a face that is seen.
+    std::span<const VisibleMap::Ring> of_face(std::uint32_t face) const {
+        const auto found = std::lower_bound(
+            starts_.begin(), starts_.end() - 1, face, [&](std::size_t start, std::uint32_t value) {
+                return map_.rings[start].source < value;
+            });
+        return (*this)[static_cast<std::size_t>(found - starts_.begin())];
+    }
+
+private:
+    const VisibleMap& map_;
+    std::vector<std::size_t> starts_;
+};
+
+std::size_t vertex_count(std::span<const VisibleMap::Ring> rings) {
+    std::size_t count = 0;
+    for (const VisibleMap::Ring& ring : rings)
+        count += ring.count;
+    return count;
+}
+
+void add_rings(
+    const Painted& painted, std::span<const VisibleMap::Ring> rings, FilledOutline& outline) {
     for (const VisibleMap::Ring& ring : rings) {
-        const auto vertices = painted.map.vertices_of(ring);
         std::vector<DrawingPoint>& points = outline.rings.emplace_back();
-        points.reserve(vertices.size());
-        for (const std::uint32_t vertex : vertices)
+        points.reserve(ring.count);
+        for (const std::uint32_t vertex : painted.map.vertices_of(ring))
             points.push_back(drawn_point(painted, vertex));
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            const std::uint32_t across = painted.map.ring_across[ring.first + i];
-            if (across != no_source && across > ring.source)
-                outline.seams.push_back({points[i], points[i + 1 == points.size() ? 0 : i + 1]});
+    }
+}
+
+/// Where two faces meet, what smooths edges lets through what lies behind both. So a face goes on
+/// below those beside it that are painted later: all of them where they are small, which moves no
+/// silhouette; else a strip.
+void cover_seams(
+    const Painted& painted,
+    const FaceRings& all,
+    std::span<const VisibleMap::Ring> own,
+    FilledOutline& outline) {
+    constexpr std::size_t small = 16;
+    std::vector<std::uint32_t> below;
+    const std::size_t own_rings = outline.rings.size();
+    for (std::size_t i = 0; i < own_rings; ++i) {
+        const std::vector<DrawingPoint> points = outline.rings[i];
+        for (std::size_t j = 0; j < points.size(); ++j) {
+            const std::uint32_t across = painted.map.ring_across[own[i].first + j];
+            if (across == no_source || across <= own[i].source)
+                continue;
+            const auto others = all.of_face(across);
+            if (vertex_count(others) > small) {
+                outline.seams.push_back({points[j], points[j + 1 == points.size() ? 0 : j + 1]});
+            } else if (std::find(below.begin(), below.end(), across) == below.end()) {
+                below.push_back(across);
+                add_rings(painted, others, outline);
+            }
         }
     }
-    return outline;
 }
 
 DrawingColor
@@ -144,23 +202,25 @@ color_of(const Painted& painted, std::uint32_t face, std::span<const VisibleMap:
 }
 
 void add_fills(const Painted& painted, Drawing& drawing) {
-    const std::span<const VisibleMap::Ring> rings = painted.map.rings;
+    const FaceRings all(painted.map);
     std::uint64_t grouped = 0;
     std::string group;
-    for (std::size_t first = 0, last = 0; first < rings.size(); first = last) {
-        const std::uint32_t face = rings[first].source;
-        while (last < rings.size() && rings[last].source == face)
-            ++last;
-        const auto own = rings.subspan(first, last - first);
+    for (std::size_t number = 0; number < all.count(); ++number) {
+        const auto own = all[number];
+        const std::uint32_t face = own.front().source;
         const std::uint32_t facet = painted.faces.first_facet[face];
         const std::uint64_t primitive = painted.facets.triangles[facet].primitive;
         if (group.empty() || primitive != grouped)
             group = group_name(painted.scene, primitive);
         grouped = primitive;
-        FilledOutline outline = outline_of(painted, own);
+        FilledOutline outline;
         outline.id = "face-" + std::to_string(primitive + 1);
         outline.group = group;
         outline.color = color_of(painted, face, own);
+        add_rings(painted, own, outline);
+        // Numbers are to be compared, not looked at.
+        if (painted.settings.style != DrawingStyle::ids)
+            cover_seams(painted, all, own, outline);
         drawing.fills.push_back(std::move(outline));
     }
 }
