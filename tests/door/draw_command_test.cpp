@@ -87,6 +87,7 @@ TEST(DrawCommand, GivesEachPrimitiveItsNumberForColourInTheOrderOfTheText) {
     EXPECT_EQ(of_outlines(svg, "fill"), colors) << svg;
     EXPECT_EQ(of_outlines(svg, "id"), ids) << svg;
     EXPECT_TRUE(holds(svg, "<rect id=\"background\" width=\"512\" height=\"512\" fill=\"#000\"/>"));
+    EXPECT_FALSE(holds(svg, "seam")) << svg;
     EXPECT_TRUE(holds(svg, "<title>sphere, line 6</title>")) << svg;
     EXPECT_TRUE(holds(svg, "<title>sphere of pair, line 10</title>")) << svg;
 }

@@ -127,7 +127,8 @@ public:
     std::size_t count() const { return starts_.size() - 1; }
 
     std::span<const VisibleMap::Ring> operator[](std::size_t number) const {
-        return std::span(map_.rings).subspan(starts_[number], starts_[number + 1] - starts_[number]);
+        return std::span(map_.rings)
+            .subspan(starts_[number], starts_[number + 1] - starts_[number]);
     }
 
     /// Of a face that is seen.
