@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/base/output_file.h"
+#include "vera/base/similar_words.h"
 #include "vera/base/version.h"
 #include "vera/drawing/drawing_file.h"
 #include "vera/render/exposure.h"
@@ -7,6 +8,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <vector>
 
 #include "command.h"
 #include "interrupt.h"
@@ -45,6 +47,16 @@ struct Report {
     std::size_t bytes = 0;
 };
 
+/// What the name may have been meant to be, as in "did you mean 'a.svg'? Else ".
+std::string meant_output(const std::filesystem::path& output) {
+    const std::vector<std::string> extensions = {".svg", ".pdf", ".eps"};
+    const auto similar = most_similar(output.extension().string(), extensions);
+    if (!similar)
+        return {};
+    auto meant = output;
+    return fmt::format("did you mean '{}'? Else ", meant.replace_extension(*similar).string());
+}
+
 DrawingFormat output_format(const Request& request) {
     if (!request.format.empty()) {
         if (const auto format = drawing_format_from_name(request.format))
@@ -57,21 +69,17 @@ DrawingFormat output_format(const Request& request) {
     if (const auto format = drawing_format_from_extension(request.output))
         return *format;
     throw CommandLineError(fmt::format(
-        "cannot tell the format of '{}' by its name; give --format with one of {}{}",
+        "cannot tell the format of '{}' by its name; {}give --format with one of {}{}",
         request.output,
+        meant_output(request.output),
         drawing_format_names(),
         request.output.ends_with(".png") ? ", or make a picture with 'vera render'" : ""));
 }
 
 DrawingStyle style_of(const Request& request) {
-    if (request.style == "flat")
-        return DrawingStyle::flat;
     if (request.style == "ids")
         return DrawingStyle::ids;
-    if (request.style == "lines")
-        return DrawingStyle::lines;
-    throw CommandLineError(
-        fmt::format("--style does not know '{}'; it knows flat, ids, lines", request.style));
+    return request.style == "lines" ? DrawingStyle::lines : DrawingStyle::flat;
 }
 
 /// Scales the light as EXPMES would for a picture.
@@ -202,7 +210,8 @@ void add_draw_command(CLI::App& app, Console& console) {
             request->style,
             "flat: the colours that the light gives, without shadows and mirrors; ids: each "
             "primitive's number as a colour; lines: silhouettes and creases")
-        ->type_name("NAME")
+        ->type_name("flat|ids|lines")
+        ->check(CLI::IsMember({"flat", "ids", "lines"}).description(""))
         ->capture_default_str();
     command
         ->add_option("--precision", request->precision, "of the coordinates, in pixels of --raster")

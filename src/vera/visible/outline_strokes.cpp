@@ -68,7 +68,20 @@ bool is_crease(const StrokeSources& sources, std::uint32_t one, std::uint32_t ot
         || !are_of_one_item(sources.scene, a.primitive, b.primitive);
 }
 
+/// Whether the frame cuts a surface there, which goes on beyond it.
+bool is_on_frame(const VisiblePiece& piece) {
+    const RationalPoint& a = piece.from;
+    const RationalPoint& b = piece.to;
+    const auto both_at = [](std::int32_t one, std::int32_t other) {
+        return one == other && (one == 0 || one == screen_size);
+    };
+    return (both_at(a.whole.x, b.whole.x) && a.x_numerator == 0 && b.x_numerator == 0)
+        || (both_at(a.whole.y, b.whole.y) && a.y_numerator == 0 && b.y_numerator == 0);
+}
+
 LineClass class_of(const StrokeSources& sources, const VisiblePiece& piece) {
+    if (is_on_frame(piece))
+        return LineClass::none;
     if (piece.left == no_triangle || piece.right == no_triangle || !meet_there(sources, piece))
         return LineClass::silhouette;
     const std::uint32_t left = sources.screen.triangles[piece.left].source;

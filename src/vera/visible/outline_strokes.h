@@ -22,8 +22,8 @@ struct StrokeSources {
 };
 
 /// Adds the lines that part what is seen: silhouettes, where one of two surfaces ends before the
-/// other or before nothing, and creases, where two meet at an angle. Pieces that go on in each
-/// other become one stroke.
+/// other or before nothing, and creases, where two meet at an angle. The frame is neither. Pieces
+/// that go on in each other become one stroke.
 void add_strokes(const StrokeSources& sources, const PictureSettings& picture, Drawing& drawing);
 
 } // namespace vera

@@ -1,0 +1,342 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "door/program.h"
+
+namespace vera {
+namespace {
+
+const std::string view = "PROJECTION 0 2 8  -2 0 0  2 0 0  -2 4 0\n"
+                         "LI 3 6 5  40 1 1 1\n"
+                         "CM grey\n"
+                         "MA grey DRF 0.7 0.7 0.7\n";
+
+/// The values of an attribute of the outlines, in their order, those of seams left out.
+std::vector<std::string> of_outlines(const std::string& svg, const std::string& attribute) {
+    std::vector<std::string> values;
+    const std::string begin = " " + attribute + "=\"";
+    for (std::size_t path = svg.find("<path id="); path != std::string::npos;
+         path = svg.find("<path id=", path + 1)) {
+        const std::size_t value = svg.find(begin, path) + begin.size();
+        values.push_back(svg.substr(value, svg.find('"', value) - value));
+    }
+    return values;
+}
+
+std::size_t count_of(const std::string& text, std::string_view part) {
+    std::size_t count = 0;
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+        ++count;
+    return count;
+}
+
+bool holds(const std::string& text, std::string_view part) {
+    return text.find(part) != std::string::npos;
+}
+
+TEST(DrawCommand, WritesEveryFormatByExtensionAndByName) {
+    const ScratchFolder folder;
+    folder.write("a.vera", small_scene);
+
+    const struct {
+        const char* output;
+        const char* begin;
+        const char* end;
+    } files[] = {
+        {"a.svg", "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg ", "</svg>\n"},
+        {"a.pdf", "%PDF-1.7\n", "%%EOF\n"},
+        {"a.EPS", "%!PS-Adobe-3.0 EPSF-3.0\n", "%%EOF\n"},
+        {"a.picture --format svg", "<?xml ", "</svg>\n"},
+    };
+
+    for (const auto& [output, begin, end] : files) {
+        const ProgramRun run =
+            run_vera(folder, std::string("draw a.vera --raster 40x30 -o ") + output);
+        ASSERT_EQ(run.exit_code, 0) << output << '\n' << run.err;
+        EXPECT_EQ(run.out, "") << output;
+        const std::string words = output;
+        const std::string bytes = folder.read(words.substr(0, words.find(' ')));
+        EXPECT_TRUE(bytes.starts_with(begin)) << output;
+        EXPECT_TRUE(bytes.ends_with(end)) << output;
+    }
+    const std::string svg = folder.read("a.svg");
+    EXPECT_TRUE(holds(svg, "width=\"40\" height=\"30\" viewBox=\"0 0 40 30\"")) << svg;
+    EXPECT_TRUE(holds(svg, "<title>a</title>")) << svg;
+    EXPECT_EQ(folder.file_count(), 5U);
+}
+
+TEST(DrawCommand, GivesEachPrimitiveItsNumberForColourInTheOrderOfTheText) {
+    const ScratchFolder folder;
+    folder.write(
+        "a.vera",
+        view
+            + "P4 -9 0 9  9 0 9  9 0 -9  -9 0 -9\n"
+              "SP -1 1 0 0.5\n"
+              "P3 0 1 0  1 1 0  0 2 0\n"
+              "SSC pair TR 1 2 0\n"
+              "SCENE pair\n"
+              "SP 0 0 0 0.3\n"
+              "SP 0 1 0 0.3\n");
+    const ProgramRun run = run_vera(folder, "draw a.vera --style ids -o a.svg");
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const std::string svg = folder.read("a.svg");
+    const std::vector<std::string> colors = {"#000001", "#000002", "#000003", "#000004", "#000005"};
+    const std::vector<std::string> ids = {"face-1", "face-2", "face-3", "face-4", "face-5"};
+    EXPECT_EQ(of_outlines(svg, "fill"), colors) << svg;
+    EXPECT_EQ(of_outlines(svg, "id"), ids) << svg;
+    EXPECT_TRUE(holds(svg, "<rect id=\"background\" width=\"512\" height=\"512\" fill=\"#000\"/>"));
+    EXPECT_FALSE(holds(svg, "seam")) << svg;
+    EXPECT_TRUE(holds(svg, "<title>sphere, line 6</title>")) << svg;
+    EXPECT_TRUE(holds(svg, "<title>sphere of pair, line 10</title>")) << svg;
+}
+
+TEST(DrawCommand, DrawsSilhouettesAndCreasesAsLayersOfLines) {
+    const ScratchFolder folder;
+    // Two walls that meet at a right angle.
+    folder.write(
+        "a.vera", view + "P4 -1 1 0  0 1 1  0 3 1  -1 3 0\nP4 0 1 1  1 1 0  1 3 0  0 3 1\n");
+    const ProgramRun run = run_vera(folder, "draw a.vera --style lines -o a.svg");
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const std::string svg = folder.read("a.svg");
+    EXPECT_TRUE(holds(
+        svg,
+        "<g id=\"silhouette-lines\" class=\"line silhouette-lines\" "
+        "inkscape:groupmode=\"layer\" inkscape:label=\"Silhouette lines\">"))
+        << svg;
+    EXPECT_TRUE(holds(svg, "<g id=\"crease-lines\" class=\"line crease-lines\"")) << svg;
+    EXPECT_FALSE(holds(svg, "fill=\"")) << svg;
+    EXPECT_EQ(count_of(svg, "<path "), 2U) << svg;
+}
+
+TEST(DrawCommand, DrawsASphereAsOneClosedLine) {
+    const ScratchFolder folder;
+    folder.write("a.vera", view + "SP 0 2 0 1.5\n");
+    const ProgramRun run = run_vera(folder, "draw a.vera --style lines --deviation 1 -o a.svg");
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const std::string svg = folder.read("a.svg");
+    EXPECT_EQ(count_of(svg, "<path "), 1U) << svg;
+    EXPECT_TRUE(holds(svg, "z\"/>")) << svg;
+}
+
+TEST(DrawCommand, DrawsNoLinesWhereTheFrameCutsASurface) {
+    const ScratchFolder folder;
+    folder.write("a.vera", view + "P4 -9 0 9  9 0 9  9 0 -9  -9 0 -9\n");
+    const ProgramRun run = run_vera(folder, "draw a.vera --style lines --precision 1 -o a.svg");
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const std::string svg = folder.read("a.svg");
+    EXPECT_EQ(count_of(svg, "<path "), 1U) << svg;
+    EXPECT_TRUE(holds(svg, "<path d=\"m0 376h512\"/>") || holds(svg, "<path d=\"m512 376h-512\"/>"))
+        << svg;
+}
+
+TEST(DrawCommand, WritesToStandardOutputAndReadsStandardInput) {
+    const ScratchFolder folder;
+    folder.write("a.vera", small_scene);
+    const ProgramRun run = run_vera(folder, "draw a.vera --raster 9x9 --format eps -o -");
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_TRUE(run.out.starts_with("%!PS-Adobe-3.0 EPSF-3.0\n"));
+    EXPECT_TRUE(run.err.starts_with("standard output: ")) << run.err;
+    const ProgramRun counted = run_vera(folder, "draw a.vera --format svg --json -o -");
+    EXPECT_TRUE(counted.out.ends_with("</svg>\n"));
+    EXPECT_TRUE(holds(counted.err, "\"visible_faces\"")) << counted.err;
+    const ProgramRun piped = run_vera(folder, "draw - -q --raster 9x9 -o b.pdf < a.vera");
+    EXPECT_EQ(piped.exit_code, 0) << piped.err;
+    EXPECT_EQ(piped.err, "");
+    EXPECT_TRUE(folder.read("b.pdf").starts_with("%PDF-1.7\n"));
+}
+
+TEST(DrawCommand, GivesTheSameFileInEveryRunForAnyNumberOfThreads) {
+    const ScratchFolder folder;
+    // They pass through each other, so that cutting is among the work that is shared out.
+    folder.write("a.vera", view + "SP -0.5 1.7 0 1\nSP 0.5 2.1 0.3 1\nSP 0 1 0.4 0.9\n");
+    for (const char* style : {"flat", "ids", "lines"})
+        for (const char* format : {"svg", "pdf", "eps"}) {
+            const std::string command =
+                std::string("draw a.vera --deviation 1 --style ") + style + " --format " + format;
+            ASSERT_EQ(run_vera(folder, command + " --threads 1 -o 1").exit_code, 0) << command;
+            const std::string expected = folder.read("1");
+            for (const char* threads : {"1", "2", "7"}) {
+                ASSERT_EQ(run_vera(folder, command + " -o 2 --threads " + threads).exit_code, 0);
+                EXPECT_EQ(folder.read("2") == expected, true) << command << ' ' << threads;
+            }
+        }
+}
+
+TEST(DrawCommand, RefusesWhatItCannotUnderstand) {
+    const ScratchFolder folder;
+    folder.write("a.vera", small_scene);
+
+    const struct {
+        const char* arguments;
+        const char* problem;
+    } wrong[] = {
+        {"", "--output is required"},
+        {"-o -", "a drawing on standard output needs --format, as in --format svg"},
+        {"-o a.xyz",
+         "cannot tell the format of 'a.xyz' by its name; give --format with one of svg, pdf, eps"},
+        {"-o a.png",
+         "cannot tell the format of 'a.png' by its name; give --format with one of svg, pdf, eps, "
+         "or make a picture with 'vera render'"},
+        {"-o a.vsg",
+         "cannot tell the format of 'a.vsg' by its name; did you mean 'a.svg'? Else give --format "
+         "with one of svg, pdf, eps"},
+        {"-o a.svg --format png", "--format does not know 'png'; it knows svg, pdf, eps"},
+        {"-o a.svg --style lnes",
+         "--style takes flat, ids or lines; found 'lnes'; did you mean 'lines'?"},
+        {"-o a.svg --style toon", "--style takes flat, ids or lines; found 'toon'"},
+        {"-o a.svg --precision 0", "--precision takes a number from 1e-06 to 1; found 0"},
+        {"-o a.svg --precision 2", "--precision takes a number from 1e-06 to 1; found 2"},
+        {"-o a.svg --precision nan", "--precision takes a number from 1e-06 to 1; found nan"},
+        {"-o a.svg --deviation 0", "--deviation takes a number from 0.0001 to 100; found 0"},
+        {"-o a.svg --deviation 101", "--deviation takes a number from 0.0001 to 100; found 101"},
+        {"-o a.svg --page -1", "--page takes a number from 0 to 100000; found -1"},
+        {"-o a.svg --threads 1.5", "--threads takes a whole number from 0 to 1024; found 1.5"},
+        {"-o a.svg --threads 1025", "--threads takes a whole number from 0 to 1024; found 1025"},
+        {"-o a.svg --raster 40", "--raster takes WIDTHxHEIGHT in pixels"},
+        {"-o a.svg --index bvh", "unknown option '--index'"},
+    };
+
+    for (const auto& [arguments, problem] : wrong) {
+        const ProgramRun run = run_vera(folder, std::string("draw a.vera ") + arguments);
+        EXPECT_EQ(run.exit_code, 2) << arguments << run.err;
+        EXPECT_TRUE(run.err.starts_with(std::string("vera: error: ") + problem))
+            << arguments << '\n'
+            << run.err;
+        EXPECT_TRUE(run.err.ends_with("('vera draw --help' tells more)\n")) << run.err;
+    }
+    EXPECT_EQ(folder.file_count(), 1U);
+}
+
+TEST(DrawCommand, TellsAWrongSceneWithItsPlaceAndWritesNothing) {
+    const ScratchFolder folder;
+    folder.write("a.vera", "PROJECTION 0 2 8  -2 0 0  2 0 0  -2 4 0\nSP 0 1 blue 1\n");
+    const ProgramRun run = run_vera(folder, "draw a.vera -o a.svg");
+    EXPECT_EQ(run.exit_code, 1);
+    EXPECT_TRUE(holds(run.err, "a.vera:2:8: error: ")) << run.err;
+    EXPECT_EQ(folder.file_count(), 1U);
+}
+
+TEST(DrawCommand, FailsClearlyWhereItCannotReadOrWrite) {
+    const ScratchFolder folder;
+    folder.write("a.vera", small_scene);
+    const ProgramRun missing = run_vera(folder, "draw b.vera -o a.svg");
+    EXPECT_EQ(missing.exit_code, 3);
+    EXPECT_EQ(
+        missing.err,
+        "vera: error: cannot read 'b.vera' (did you mean 'a.vera'?): No such file or directory\n");
+    const ProgramRun unwritable = run_vera(folder, "draw a.vera -o no/such/a.svg");
+    EXPECT_EQ(unwritable.exit_code, 3);
+    EXPECT_EQ(
+        unwritable.err,
+        "vera: error: cannot write 'no/such/a.svg'; make its folder first: No such file or "
+        "directory\n");
+    if (std::filesystem::exists("/dev/full")) {
+        EXPECT_EQ(run_vera(folder, "draw a.vera --format svg -o - >/dev/full").exit_code, 3);
+    }
+    EXPECT_EQ(folder.file_count(), 1U);
+}
+
+TEST(DrawCommand, ReportsCountsAndProgressAsJson) {
+    const ScratchFolder folder;
+    folder.write("a.vera", small_scene);
+    const ProgramRun run =
+        run_vera(folder, "draw a.vera --style ids -o a.svg --progress json --json");
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_TRUE(run.out.starts_with("{\n  \"version\": 1,\n  \"facets\": ")) << run.out;
+    for (const char* part :
+         {"\"visible_faces\": 2,",
+          "\"cut_rounds\": 0,",
+          "\"penetrating\": 0,",
+          "\"bytes\": ",
+          "\"read\": ",
+          "\"draw\": ",
+          "\"write\": "})
+        EXPECT_TRUE(holds(run.out, part)) << part << '\n' << run.out;
+    EXPECT_TRUE(holds(run.out, "\"bytes\": " + std::to_string(folder.read("a.svg").size()) + ","))
+        << run.out;
+    EXPECT_TRUE(holds(run.err, "{\"version\": 1, \"stage\": \"draw\", \"done\": 1.0000"))
+        << run.err;
+}
+
+TEST(DrawCommand, ShowsExamplesInItsHelp) {
+    const ScratchFolder folder;
+    const ProgramRun run = run_vera(folder, "draw --help");
+    EXPECT_EQ(run.exit_code, 0);
+    for (const char* example :
+         {"Examples:\n  vera draw bracket.obj -o bracket.svg\n",
+          "  vera draw scene.vera -o scene.pdf --page 120\n",
+          "  vera draw scene.vera -o outlines.svg --style lines"})
+        EXPECT_TRUE(holds(run.out, example)) << run.out;
+}
+
+TEST(DrawCommand, DrawsAnEmptySceneAsItsBackground) {
+    const ScratchFolder folder;
+    folder.write("a.vera", "PROJECTION 0 2 8  -2 0 0  2 0 0  -2 4 0\n");
+    const std::string command = "draw a.vera --raster 40x30 --earth 1 1 1 --sky 1 1 1 -o ";
+    for (const char* rest :
+         {"a.svg", "a.pdf", "a.eps", "b.svg --style lines", "c.svg --style ids"}) {
+        const ProgramRun run = run_vera(folder, command + rest);
+        EXPECT_EQ(run.exit_code, 0) << rest << '\n' << run.err;
+        EXPECT_TRUE(holds(run.err, ": 0 faces seen of 0 facets; ")) << run.err;
+    }
+    EXPECT_TRUE(holds(
+        folder.read("a.svg"),
+        "<rect id=\"background\" width=\"40\" height=\"30\" fill=\"#fff\"/>\n</svg>\n"));
+    EXPECT_TRUE(folder.read("a.pdf").ends_with("%%EOF\n"));
+    EXPECT_TRUE(folder.read("a.eps").ends_with("%%EOF\n"));
+    EXPECT_FALSE(holds(folder.read("b.svg"), "<rect"));
+    EXPECT_TRUE(folder.read("b.svg").ends_with("</desc>\n</svg>\n"));
+}
+
+TEST(DrawCommand, CutsWhatPassesThroughOtherThings) {
+    const ScratchFolder folder;
+    folder.write("a.vera", view + "P4 -9 0 9  9 0 9  9 0 -9  -9 0 -9\nSP 0 0.2 0 1\n");
+    const ProgramRun run = run_vera(folder, "draw a.vera --style ids -o a.svg --json");
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ(run.err, "");
+    EXPECT_FALSE(holds(run.out, "\"cut_rounds\": 0,")) << run.out;
+    EXPECT_TRUE(holds(run.out, "\"penetrating\": 0,")) << run.out;
+    const std::string svg = folder.read("a.svg");
+    const std::vector<std::string> colors = {"#000001", "#000002"};
+    EXPECT_EQ(of_outlines(svg, "fill"), colors) << svg;
+    // Half of the ball at least: more points than an outline of straight sides has.
+    EXPECT_GT(of_outlines(svg, "d").back().size(), 300U) << svg;
+}
+
+TEST(DrawCommand, SaysWhatIsTooNearToBeDrawn) {
+    const ScratchFolder folder;
+    const std::string far = "P4 -9 0 9  9 0 9  9 0 -4000  -9 0 -4000\n";
+    folder.write("far.vera", view + far);
+    folder.write(
+        "near.vera", view + far + "P3 -1 1.999 7.99999  1 1.999 7.99999  0 2.001 7.99999\n");
+    const ProgramRun all = run_vera(folder, "draw far.vera --style ids -o a.svg");
+    ASSERT_EQ(all.exit_code, 0) << all.err;
+    EXPECT_FALSE(holds(all.err, "not drawn")) << all.err;
+    const ProgramRun run = run_vera(folder, "draw near.vera --style ids -o b.svg");
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_TRUE(holds(
+        run.err,
+        "what is nearer to the view point than 0.00764 of the image plane's "
+        "distance is not drawn: the rest would be too coarse"))
+        << run.err;
+    EXPECT_EQ(of_outlines(folder.read("b.svg"), "id"), std::vector<std::string>{"face-1"});
+}
+
+TEST(DrawCommand, LeavesNoFileWhenInterrupted) {
+    const ScratchFolder folder;
+    std::string text = view;
+    for (int i = 0; i < 8; ++i)
+        text += "SP 0 2 0 1." + std::to_string(10 + i) + "\n";
+    folder.write("a.vera", text);
+    const ProgramRun run = run_vera(
+        folder,
+        "draw a.vera --deviation 0.0001 -o a.svg & child=$!; sleep 0.3; kill -INT $child; wait "
+        "$child");
+    EXPECT_EQ(run.exit_code, 130) << run.err;
+    EXPECT_EQ(folder.file_count(), 1U);
+}
+
+} // namespace
+} // namespace vera
