@@ -2,7 +2,6 @@
 #pragma once
 
 #include "vera/exact/screen_point.h"
-#include "vera/exact/wide_integer.h"
 
 #include <array>
 #include <cstdint>
@@ -37,35 +36,5 @@ struct DepthPlane {
 
 /// The plane of a triangle whose corners go round to the left.
 DepthPlane depth_plane(const std::array<ScreenVertex, 3>& corners);
-
-/// How much nearer a is than b at the point, times both areas.
-Int128 nearness_difference(const DepthPlane& a, const DepthPlane& b, ScreenPoint point);
-
-/// How much that grows along the step.
-Int128 nearness_growth(const DepthPlane& a, const DepthPlane& b, ScreenStep along);
-
-static_assert(4 * screen_bits + depth_bits + 5 <= 126, "nearness_difference() must not overflow");
-
-/// Which of two planes is nearer beside a segment, or at its places: what is needed of their
-/// difference there.
-struct PlaneComparison {
-    Int128 at_begin = 0; ///< nearness_difference()
-    Int128 at_end = 0;
-    int to_left = 0; ///< the sign of nearness_growth() to the left of the segment
-
-    PlaneComparison() = default;
-    PlaneComparison(const DepthPlane& a, const DepthPlane& b, ScreenPoint begin, ScreenPoint end);
-
-    /// 1 where a is nearer at the place, -1 where b is, 0 where they are as near.
-    int at(SegmentPlace place) const;
-
-    /// Whether neither passes the other between the places.
-    bool keeps_order(SegmentPlace first, SegmentPlace last) const;
-
-    /// 1 where a is nearer than b just beside the segment, on the left or on the right, between the
-    /// places; 0 where they coincide. Of planes that pass each other there it tells who is nearer
-    /// at the middle.
-    int beside(SegmentPlace first, SegmentPlace last, bool on_left) const;
-};
 
 } // namespace vera

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/brute_force.h"
 
+#include "vera/exact/wide_integer.h"
+
 namespace vera {
 
 namespace {
