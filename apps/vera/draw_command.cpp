@@ -167,8 +167,10 @@ void draw(const Request& request, const Console& console) {
     write_drawing(drawn.drawing, file, format, file_settings);
     file.commit();
     report.write_seconds = watch.lap();
-    if (request.output != "-")
-        report.bytes = static_cast<std::size_t>(std::filesystem::file_size(request.output));
+    // Of what is no file, as a pipe, nothing is told.
+    std::error_code none;
+    if (std::filesystem::is_regular_file(request.output, none))
+        report.bytes = static_cast<std::size_t>(std::filesystem::file_size(request.output, none));
 
     print_notes(drawn, console);
     if (request.json)

@@ -338,5 +338,13 @@ TEST(DrawCommand, LeavesNoFileWhenInterrupted) {
     EXPECT_EQ(folder.file_count(), 1U);
 }
 
+TEST(DrawCommand, WritesToWhatIsNoFileAsWell) {
+    const ScratchFolder folder;
+    folder.write("a.vera", small_scene);
+    const ProgramRun run = run_vera(folder, "draw a.vera -o /dev/null --format svg --json");
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_NE(run.out.find("\"bytes\": 0"), std::string::npos) << run.out;
+}
+
 } // namespace
 } // namespace vera

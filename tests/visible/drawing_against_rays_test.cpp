@@ -5,6 +5,7 @@
 #include "vera/visible/projection.h"
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <random>
@@ -72,7 +73,8 @@ TEST(DrawingAgainstRays, TheSamePrimitivesAreSeenInRandomScenes) {
         const Scene scene = testing::random_scene(static_cast<std::uint64_t>(number), settings);
         const Camera camera = camera_number(number);
         const CameraMap map(camera);
-        const Facets all = facets(scene, [&](Vec3 point) { return map.size_of(deviation, point); });
+        const Facets all =
+            facets(scene, [&](Vec3 point) { return deviation * map.size_of_pixel(1, 1, point); });
         const DrawnFaces faces = drawn_faces(scene, all, FaceUnit::primitive);
         ScreenScene screen = screen_scene(all, map, faces.of_facet);
         const double cut = screen.cut_nearness;
@@ -101,6 +103,24 @@ TEST(DrawingAgainstRays, TheSamePrimitivesAreSeenInRandomScenes) {
         }
     }
     EXPECT_GT(compared, 200);
+}
+
+TEST(CameraMap, SeesThroughALongLensAndNothingBehind) {
+    Camera camera;
+    camera.viewpoint = {1e8, 1.3e8, 0.7e8};
+    const Vec3 to = normalized(-camera.viewpoint);
+    const Vec3 across = normalized(cross(to, {0, 0, 1}));
+    const Vec3 up = cross(across, to);
+    camera.lower_left = -across - up;
+    camera.lower_right = across - up;
+    camera.upper_left = up - across;
+    const CameraMap map(camera);
+    const ImagePoint middle = map.image_point({0, 0, 0});
+    EXPECT_NEAR(middle.x / middle.w, 0.5, 1e-6);
+    EXPECT_NEAR(middle.y / middle.w, 0.5, 1e-6);
+    EXPECT_NEAR(middle.w, 1, 1e-6);
+    EXPECT_NEAR(map.size_of_pixel(100, 50, {0, 0, 0}), 0.02, 1e-6);
+    EXPECT_TRUE(std::isinf(map.size_of_pixel(100, 50, 2 * camera.viewpoint)));
 }
 
 } // namespace

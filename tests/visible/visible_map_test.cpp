@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/base/parallel.h"
 #include "vera/visible/brute_force.h"
+#include "vera/visible/cells.h"
 #include "vera/visible/penetrations.h"
 #include "vera/visible/visible_map.h"
 
@@ -11,6 +12,7 @@
 #include <random>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "visible/map_turns.h"
 #include "visible/screen_scenes.h"
@@ -137,6 +139,37 @@ TEST(VisibleMap, HoldsAThousandEdgesThroughOnePoint) {
     expect_like_brute_force(scene, 1, 500, "star");
     const VisibleMap map = visible_map(scene, cell_raster(scene));
     EXPECT_EQ(map.rings.size(), std::size_t{count});
+}
+
+TEST(Cells, HoldListsInProportionToTheTrianglesHoweverManyLieOneBehindTheOther) {
+    // Slanting so that none is nearer than another everywhere.
+    ScreenScene scene;
+    constexpr std::uint32_t count = 3000;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const auto first = static_cast<std::uint32_t>(scene.vertices.size());
+        scene.vertices.push_back({{0, static_cast<std::int32_t>(i)}, depth_size / 2 - i});
+        scene.vertices.push_back({{screen_size, 0}, depth_size / 2});
+        scene.vertices.push_back({{0, screen_size}, depth_size / 2 + i});
+        add_triangle(scene, {first, first + 1, first + 2}, i);
+    }
+    std::vector<DepthPlane> planes;
+    std::vector<NearnessSlope> slopes;
+    for (const ScreenTriangle& triangle : scene.triangles) {
+        planes.push_back(depth_plane(corners_of(scene, triangle)));
+        slopes.push_back(nearness_slope(planes.back()));
+    }
+    EXPECT_LE(cells_of(scene, planes, slopes).triangles.size(), 64 * count + 65536);
+}
+
+TEST(ScreenScene, KeepsTheFirstOfTheTextOfTrianglesInOnePlace) {
+    ScreenScene scene;
+    scene.vertices = {{{0, 0}, 5}, {{screen_size, 0}, 5}, {{0, screen_size}, 5}};
+    add_triangle(scene, {0, 1, 2}, 7);
+    add_triangle(scene, {2, 0, 1}, 3);
+    add_triangle(scene, {1, 0, 2}, 5);
+    sort_by_place(scene);
+    ASSERT_EQ(scene.triangles.size(), 1U);
+    EXPECT_EQ(scene.triangles[0].source, 3U);
 }
 
 /// What is seen at the point and, if it is the same, some steps of the grid around it.

@@ -340,18 +340,27 @@ void EdgeSweep::follow(std::uint32_t edge, VisiblePieces& result) {
     }
 }
 
-/// Whether the edge is a point, or lies behind what covers all its cells.
-bool is_hidden(const Raster& raster, const ScreenEdges::Edge& edge) {
+/// Whether the edge is a point, or lies behind what covers all its cells by more than the margin.
+bool is_hidden(const Raster& raster, const ScreenEdges::Edge& edge, double margin) {
     const ScreenVertex& a = raster.scene.vertices[edge.begin];
     const ScreenVertex& b = raster.scene.vertices[edge.end];
-    const std::int64_t near = std::max(a.nearness, b.nearness);
+    const double near = static_cast<double>(std::max(a.nearness, b.nearness)) + margin;
     return a.point == b.point
         || for_each_cell_along(raster.cells, a.point, b.point, [&](std::size_t cell) {
                return near < raster.cells.blocked[cell];
            });
 }
 
-Raster raster_of(const ScreenScene& scene) {
+/// Of each edge the largest hidden_margin() of its triangles.
+std::vector<double> edge_margins(const Raster& raster) {
+    std::vector<double> margins(raster.edges.edges.size());
+    for (std::size_t i = 0; i < raster.slopes.size(); ++i)
+        for (const std::uint32_t edge : raster.edges.of_triangle[i])
+            margins[edge] = std::max(margins[edge], hidden_margin(raster.slopes[i]));
+    return margins;
+}
+
+Raster raster_of(const ScreenScene& scene, const CancelFlag* cancel) {
     Raster raster = {scene, {}, {}, {}, {}, {}, {}};
     raster.planes.resize(scene.triangles.size());
     raster.slopes.resize(scene.triangles.size());
@@ -363,11 +372,12 @@ Raster raster_of(const ScreenScene& scene) {
         raster.corners[i] = {corners[0].point, corners[1].point, corners[2].point};
     }
     raster.edges = screen_edges(scene);
-    raster.cells = cells_of(scene, raster.planes);
+    raster.cells = cells_of(scene, raster.planes, raster.slopes, cancel);
+    const std::vector<double> margins = edge_margins(raster);
     raster.is_hidden.resize(raster.edges.edges.size());
     parallel_ranges(raster.is_hidden.size(), 4096, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i)
-            raster.is_hidden[i] = is_hidden(raster, raster.edges.edges[i]) ? 1 : 0;
+            raster.is_hidden[i] = is_hidden(raster, raster.edges.edges[i], margins[i]) ? 1 : 0;
     });
     return raster;
 }
@@ -377,7 +387,7 @@ Raster raster_of(const ScreenScene& scene) {
 VisiblePieces
 cell_raster(const ScreenScene& scene, const Progress& progress, const CancelFlag* cancel) {
     constexpr std::size_t part = 4096; // edges
-    const Raster raster = raster_of(scene);
+    const Raster raster = raster_of(scene, cancel);
     const std::size_t count = raster.edges.edges.size();
     std::vector<VisiblePieces> parts((count + part - 1) / part);
     std::mutex mutex;
@@ -395,11 +405,12 @@ cell_raster(const ScreenScene& scene, const Progress& progress, const CancelFlag
         if (!sweep)
             sweep = std::make_unique<EdgeSweep>(raster);
         for (std::size_t i = first; i < last; ++i) {
-            if (cancel != nullptr)
-                cancel->throw_if_raised();
             const std::size_t end = std::min(count, (i + 1) * part);
-            for (std::size_t edge = i * part; edge < end; ++edge)
+            for (std::size_t edge = i * part; edge < end; ++edge) {
+                if (cancel != nullptr && edge % 16 == 0)
+                    cancel->throw_if_raised();
                 sweep->follow(static_cast<std::uint32_t>(edge), parts[i]);
+            }
         }
         const std::lock_guard lock(mutex);
         sweeps.push_back(std::move(sweep));

@@ -96,7 +96,7 @@ void for_each_row_of(
 }
 
 /// Not more than how near the plane is at any point of the cell.
-std::int64_t least_nearness(const Cells& cells, const DepthPlane& plane, ScreenPoint lower) {
+double least_nearness(const Cells& cells, const DepthPlane& plane, ScreenPoint lower) {
     const double size = std::ldexp(1.0, cells.shift);
     double least = std::numeric_limits<double>::infinity();
     for (const double x : {0.0, size})
@@ -104,11 +104,12 @@ std::int64_t least_nearness(const Cells& cells, const DepthPlane& plane, ScreenP
             least = std::min(least, plane.value(lower.x + x, lower.y + y));
     // Within a triangle the terms of value() are at most 2^34, for slivers far more; but those
     // cover no cell.
-    return static_cast<std::int64_t>(std::floor(least)) - 1;
+    return least - 1;
 }
 
-std::int64_t nearest(const std::array<ScreenVertex, 3>& corners) {
-    return std::max({corners[0].nearness, corners[1].nearness, corners[2].nearness});
+double nearest(const std::array<ScreenVertex, 3>& corners) {
+    return static_cast<double>(
+        std::max({corners[0].nearness, corners[1].nearness, corners[2].nearness}));
 }
 
 int shift_for(std::size_t triangles) {
@@ -119,45 +120,88 @@ int shift_for(std::size_t triangles) {
     return screen_bits - bits;
 }
 
-} // namespace
-
-Cells cells_of(const ScreenScene& scene, std::span<const DepthPlane> planes) {
-    Cells cells;
-    cells.shift = shift_for(scene.triangles.size());
-    cells.per_side = std::int32_t{1} << (screen_bits - cells.shift);
-    const std::size_t count =
-        static_cast<std::size_t>(cells.per_side) * static_cast<std::size_t>(cells.per_side);
-    cells.blocked.assign(count, -1);
+/// Fills in what blocks each cell.
+void block_cells(
+    Cells& cells,
+    const ScreenScene& scene,
+    std::span<const DepthPlane> planes,
+    std::span<const NearnessSlope> slopes) {
     for (std::size_t i = 0; i < scene.triangles.size(); ++i)
         for_each_row_of(
             cells,
             corners_of(scene, scene.triangles[i]),
             [&](std::int32_t row, const RowOfCells& found) {
                 for (std::int32_t j = found.covered.first; j <= found.covered.last; ++j) {
-                    std::int64_t& blocked = cells.blocked[cells.number(j, row)];
+                    double& blocked = cells.blocked[cells.number(j, row)];
                     const ScreenPoint lower = {j << cells.shift, row << cells.shift};
-                    blocked = std::max(blocked, least_nearness(cells, planes[i], lower));
+                    blocked = std::max(
+                        blocked,
+                        least_nearness(cells, planes[i], lower) - hidden_margin(slopes[i]));
                 }
             });
+}
 
-    const auto for_each_entry = [&](const auto& visit) {
-        for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
-            const auto corners = corners_of(scene, scene.triangles[i]);
-            const std::int64_t near = nearest(corners);
-            for_each_row_of(cells, corners, [&](std::int32_t row, const RowOfCells& found) {
-                for (std::int32_t j = found.touched.first; j <= found.touched.last; ++j)
-                    if (const std::size_t cell = cells.number(j, row); near >= cells.blocked[cell])
-                        visit(cell, i);
-            });
-        }
-    };
+/// Calls visit(cell, triangle) for the triangles of each cell that are not hidden there.
+template <typename Visit>
+void for_each_entry(
+    const Cells& cells,
+    const ScreenScene& scene,
+    std::span<const NearnessSlope> slopes,
+    const CancelFlag* cancel,
+    const Visit& visit) {
+    for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
+        if (cancel != nullptr && i % 256 == 0)
+            cancel->throw_if_raised();
+        const auto corners = corners_of(scene, scene.triangles[i]);
+        const double near = nearest(corners) + hidden_margin(slopes[i]);
+        for_each_row_of(cells, corners, [&](std::int32_t row, const RowOfCells& found) {
+            for (std::int32_t j = found.touched.first; j <= found.touched.last; ++j)
+                if (const std::size_t cell = cells.number(j, row); near >= cells.blocked[cell])
+                    visit(cell, i);
+        });
+    }
+}
+
+/// Counts the triangles of each cell of that size into starts; returns how many there are in all.
+std::uint64_t count_entries(
+    Cells& cells,
+    const ScreenScene& scene,
+    std::span<const DepthPlane> planes,
+    std::span<const NearnessSlope> slopes,
+    const CancelFlag* cancel) {
+    cells.per_side = std::int32_t{1} << (screen_bits - cells.shift);
+    const std::size_t count =
+        static_cast<std::size_t>(cells.per_side) * static_cast<std::size_t>(cells.per_side);
+    cells.blocked.assign(count, -1);
     cells.starts.assign(count + 1, 0);
-    for_each_entry([&](std::size_t cell, std::uint32_t) { ++cells.starts[cell + 1]; });
+    block_cells(cells, scene, planes, slopes);
+    std::uint64_t entries = 0;
+    for_each_entry(cells, scene, slopes, cancel, [&](std::size_t cell, std::uint32_t) {
+        ++cells.starts[cell + 1];
+        ++entries;
+    });
+    return entries;
+}
+
+} // namespace
+
+Cells cells_of(
+    const ScreenScene& scene,
+    std::span<const DepthPlane> planes,
+    std::span<const NearnessSlope> slopes,
+    const CancelFlag* cancel) {
+    Cells cells;
+    cells.shift = shift_for(scene.triangles.size());
+    const std::uint64_t most = 64 * std::uint64_t{scene.triangles.size()} + 65536;
+    while (count_entries(cells, scene, planes, slopes, cancel) > most)
+        ++cells.shift; // with one cell there are as many as triangles
     for (std::size_t i = 1; i < cells.starts.size(); ++i)
         cells.starts[i] += cells.starts[i - 1];
     cells.triangles.resize(cells.starts.back());
     std::vector<std::uint32_t> next(cells.starts.begin(), cells.starts.end() - 1);
-    for_each_entry([&](std::size_t cell, std::uint32_t i) { cells.triangles[next[cell]++] = i; });
+    for_each_entry(cells, scene, slopes, cancel, [&](std::size_t cell, std::uint32_t i) {
+        cells.triangles[next[cell]++] = i;
+    });
     return cells;
 }
 

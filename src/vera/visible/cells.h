@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "vera/base/parallel.h"
 #include "vera/exact/depth_plane.h"
+#include "vera/visible/front_order.h"
 #include "vera/visible/screen_scene.h"
 
 #include <algorithm>
@@ -19,7 +21,8 @@ struct Cells {
     std::int32_t per_side = 1;
     std::vector<std::uint32_t> starts; ///< cell i has the triangles [starts[i]] to [starts[i + 1]]
     std::vector<std::uint32_t> triangles; ///< in ascending order within a cell
-    std::vector<std::int64_t> blocked;    ///< what is less near is hidden everywhere in the cell
+    /// What is less near, by its own hidden_margin(), is hidden everywhere in the cell.
+    std::vector<double> blocked;
 
     std::int32_t cell_of(std::int32_t coordinate) const {
         return std::min(coordinate >> shift, per_side - 1);
@@ -35,8 +38,19 @@ struct Cells {
     }
 };
 
-/// planes[i] is that of triangle i.
-Cells cells_of(const ScreenScene& scene, std::span<const DepthPlane> planes);
+/// planes[i] and slopes[i] are those of triangle i. Where many triangles lie one behind the other
+/// there are fewer cells, so that the lists stay in proportion to the triangles.
+Cells cells_of(
+    const ScreenScene& scene,
+    std::span<const DepthPlane> planes,
+    std::span<const NearnessSlope> slopes,
+    const CancelFlag* cancel = nullptr);
+
+/// By how much something must be behind what blocks a cell to be hidden there whatever the order of
+/// the two: see front_order.h.
+inline double hidden_margin(const NearnessSlope& slope) {
+    return 2 * slope.per_step() + 2;
+}
 
 /// Calls visit(number of the cell) for the cells that the segment from a to b touches, until that
 /// returns false; true where it never did.

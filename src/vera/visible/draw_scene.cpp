@@ -259,9 +259,10 @@ DrawnScene draw_scene(
     const Progress& progress,
     const CancelFlag* cancel) {
     const CameraMap camera_map(camera);
-    const double part = settings.deviation / picture.width;
-    const Facets all = facets(
-        scene, [&](Vec3 point) { return camera_map.size_of(part, point); }, cancel);
+    const auto deviation = [&](Vec3 point) {
+        return settings.deviation * camera_map.size_of_pixel(picture.width, picture.height, point);
+    };
+    const Facets all = facets(scene, deviation, cancel);
     if (settings.style == DrawingStyle::ids)
         check_numbers(all);
     const DrawnFaces faces = drawn_faces(

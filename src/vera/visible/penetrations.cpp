@@ -139,11 +139,14 @@ void cut_penetrations(
 
 WholePieces whole_pieces(ScreenScene& scene, const Progress& progress, const CancelFlag* cancel) {
     constexpr int most_rounds = 24;
+    // Where each passes through each, cutting all would take the square of their number.
+    const std::size_t most_triangles = 16 * scene.triangles.size() + 100'000;
     WholePieces result;
     while (true) {
         result.pieces = cell_raster(scene, progress, cancel);
         result.left = result.pieces.penetrating.size();
-        if (result.left == 0 || result.rounds == most_rounds)
+        if (result.left == 0 || result.rounds == most_rounds
+            || scene.triangles.size() > most_triangles)
             return result;
         cut_penetrations(scene, result.pieces.penetrating);
         ++result.rounds;

@@ -46,11 +46,11 @@ public:
             const double at_here = inside(here);
             const double at_next = inside(next);
             if (at_here >= 0)
-                points_[count_++] = here;
+                add(here);
             if ((at_here > 0 && at_next < 0) || (at_here < 0 && at_next > 0)) {
                 ImagePoint point = between(here, next, at_here, at_next);
                 adjust(point);
-                points_[count_++] = point;
+                add(point);
             }
         }
     }
@@ -58,8 +58,13 @@ public:
     std::span<const ImagePoint> points() const { return std::span(points_).first(count_); }
 
 private:
-    // Each of five cuts adds one point at most.
-    static constexpr std::size_t most = 8;
+    // Each of five cuts adds one point at most; rounding may add another.
+    static constexpr std::size_t most = 13;
+
+    void add(const ImagePoint& point) {
+        if (count_ < most)
+            points_[count_++] = point;
+    }
 
     /// The same to the bit from either end, so that faces that share a side share its cuts.
     static ImagePoint between(ImagePoint a, ImagePoint b, double at_a, double at_b) {
@@ -88,6 +93,10 @@ void cut_to_frame(CutPolygon& polygon, double nearest) {
 
 bool is_in_frame(const ImagePoint& p) {
     return p.w > 0 && p.x >= 0 && p.x <= p.w && p.y >= 0 && p.y <= p.w;
+}
+
+bool is_finite(const ImagePoint& p) {
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.w) && std::isfinite(p.depth);
 }
 
 bool are_all_outside(const std::array<ImagePoint, 3>& corners) {
@@ -178,7 +187,8 @@ struct Snap {
 template <typename Visit>
 void for_visible_part(
     const std::array<ImagePoint, 3>& corners, double nearest, const Visit& visit) {
-    if (are_all_outside(corners))
+    // What overflowed lies beyond anything that a picture shows.
+    if (are_all_outside(corners) || !std::all_of(corners.begin(), corners.end(), is_finite))
         return;
     const bool is_whole = std::all_of(corners.begin(), corners.end(), [&](const ImagePoint& p) {
         return is_in_frame(p) && p.w >= nearest;
@@ -195,10 +205,16 @@ void for_visible_part(
 CameraMap::CameraMap(const Camera& camera)
     : is_parallel_(camera.projection == Camera::Projection::parallel) {
     const ViewRays rays(camera);
-    const Affine3 to_world = is_parallel_
-        ? map_of(rays.across, rays.up, rays.origin_or_direction, rays.corner)
-        : map_of(rays.across, rays.up, rays.corner, rays.origin_or_direction);
-    const auto from_world = inverse(to_world);
+    width_ = length(rays.across);
+    height_ = length(rays.up);
+    const Vec3 view = is_parallel_ ? rays.origin_or_direction : rays.corner;
+    const double distance = length(view);
+    // By unit vectors: what is seen through a long lens is a narrow picture far away.
+    auto from_world = inverse(map_of(
+        normalized(rays.across),
+        normalized(rays.up),
+        normalized(view),
+        is_parallel_ ? rays.corner : rays.origin_or_direction));
     if (!from_world) {
         Diagnostic problem;
         problem.problem = "the camera sees its image plane edge-on";
@@ -206,8 +222,12 @@ CameraMap::CameraMap(const Camera& camera)
             "let the three corners of the picture span a plane, and the view not lie in it";
         throw InputError({problem});
     }
+    const Vec3 sizes = {width_, height_, distance};
+    Vec3& translation = from_world->translation;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        from_world->linear.rows[axis] = from_world->linear.rows[axis] / sizes[axis];
+    translation = {translation.x / sizes.x, translation.y / sizes.y, translation.z / sizes.z};
     from_world_ = *from_world;
-    width_ = length(rays.across);
 }
 
 ImagePoint CameraMap::image_point(Vec3 point) const {
@@ -215,9 +235,11 @@ ImagePoint CameraMap::image_point(Vec3 point) const {
     return is_parallel_ ? ImagePoint{p.x, p.y, 1, p.z} : ImagePoint{p.x, p.y, p.z, 0};
 }
 
-double CameraMap::size_of(double part_of_width, Vec3 point) const {
+double CameraMap::size_of_pixel(double columns, double rows, Vec3 point) const {
     const double w = image_point(point).w;
-    return part_of_width * width_ * std::max(w, nearest_part);
+    if (!(w > 0))
+        return std::numeric_limits<double>::infinity();
+    return std::min(width_ / columns, height_ / rows) * std::max(w, nearest_part);
 }
 
 ScreenScene
@@ -234,7 +256,8 @@ screen_scene(const Facets& facets, const CameraMap& map, std::span<const std::ui
     // What is so near that the rest would shrink to nothing is cut away.
     double farthest = 0;
     for (const ImagePoint& point : points)
-        farthest = std::max(farthest, point.w);
+        if (is_finite(point))
+            farthest = std::max(farthest, point.w);
     Snap snap = {map.is_parallel(), {}};
     const double tiny = farthest * 0x1p-40;
     for (const Facets::Triangle& facet : facets.triangles)

@@ -31,13 +31,15 @@ public:
 
     bool is_parallel() const { return is_parallel_; }
 
-    /// How large a part of the picture's width is, at the point, in the scene's units; never 0.
-    double size_of(double part_of_width, Vec3 point) const;
+    /// How large a pixel of a raster is at the point, in the scene's units, along its shorter side;
+    /// never 0. Infinite where nothing is seen: behind the view point.
+    double size_of_pixel(double columns, double rows, Vec3 point) const;
 
 private:
     Affine3 from_world_;
     bool is_parallel_ = false;
     double width_ = 0; ///< of the picture in the image plane
+    double height_ = 0;
 };
 
 /// The facets as the camera sees them: cut at the frame and before the viewer, and moved to the

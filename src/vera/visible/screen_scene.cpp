@@ -2,7 +2,7 @@
 #include "vera/visible/screen_scene.h"
 
 #include <algorithm>
-#include <numeric>
+#include <tuple>
 #include <utility>
 
 namespace vera {
@@ -28,6 +28,11 @@ std::uint64_t morton_code(const std::array<ScreenVertex, 3>& corners) {
     return spread(x) | (spread(y) << 1U);
 }
 
+std::array<std::uint32_t, 3> sorted(std::array<std::uint32_t, 3> vertices) {
+    std::sort(vertices.begin(), vertices.end());
+    return vertices;
+}
+
 } // namespace
 
 void add_triangle(ScreenScene& scene, std::array<std::uint32_t, 3> vertices, std::uint32_t source) {
@@ -41,10 +46,28 @@ void add_triangle(ScreenScene& scene, std::array<std::uint32_t, 3> vertices, std
 }
 
 void sort_by_place(ScreenScene& scene) {
-    std::vector<std::pair<std::uint64_t, std::uint32_t>> order(scene.triangles.size());
+    struct Placed {
+        std::uint64_t code;
+        std::uint32_t triangle;
+    };
+
+    std::vector<Placed> order(scene.triangles.size());
     for (std::uint32_t i = 0; i < order.size(); ++i)
         order[i] = {morton_code(corners_of(scene, scene.triangles[i])), i};
-    std::sort(order.begin(), order.end());
+    const auto key = [&](const Placed& placed) {
+        const ScreenTriangle& triangle = scene.triangles[placed.triangle];
+        return std::tuple(placed.code, sorted(triangle.vertices), triangle.source, placed.triangle);
+    };
+    std::sort(order.begin(), order.end(), [&](const Placed& a, const Placed& b) {
+        return a.code != b.code ? a.code < b.code : key(a) < key(b);
+    });
+    // Of triangles between the same vertices the first of the text alone is seen.
+    const auto duplicates =
+        std::unique(order.begin(), order.end(), [&](const Placed& a, const Placed& b) {
+            return sorted(scene.triangles[a.triangle].vertices)
+                == sorted(scene.triangles[b.triangle].vertices);
+        });
+    order.erase(duplicates, order.end());
 
     constexpr std::uint32_t unused = ~std::uint32_t{0};
     std::vector<std::uint32_t> numbers(scene.vertices.size(), unused);

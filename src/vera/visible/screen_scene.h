@@ -39,7 +39,8 @@ corners_of(const ScreenScene& scene, const ScreenTriangle& triangle) {
 void add_triangle(ScreenScene& scene, std::array<std::uint32_t, 3> vertices, std::uint32_t source);
 
 /// Sorts the triangles along a curve that fills the picture (Morton 1966), and the vertices by who
-/// uses them first: neighbours then stand close together in memory.
+/// uses them first: neighbours then stand close together in memory. Of several triangles between
+/// the same vertices one of the smallest source is left.
 void sort_by_place(ScreenScene& scene);
 
 } // namespace vera
