@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/base/output_file.h"
-#include "vera/base/similar_words.h"
 #include "vera/base/version.h"
 #include "vera/drawing/drawing_file.h"
 #include "vera/render/exposure.h"
@@ -47,16 +46,6 @@ struct Report {
     std::size_t bytes = 0;
 };
 
-/// What the name may have been meant to be, as in "did you mean 'a.svg'? Else ".
-std::string meant_output(const std::filesystem::path& output) {
-    const std::vector<std::string> extensions = {".svg", ".pdf", ".eps"};
-    const auto similar = most_similar(output.extension().string(), extensions);
-    if (!similar)
-        return {};
-    auto meant = output;
-    return fmt::format("did you mean '{}'? Else ", meant.replace_extension(*similar).string());
-}
-
 DrawingFormat output_format(const Request& request) {
     if (!request.format.empty()) {
         if (const auto format = drawing_format_from_name(request.format))
@@ -71,7 +60,7 @@ DrawingFormat output_format(const Request& request) {
     throw CommandLineError(fmt::format(
         "cannot tell the format of '{}' by its name; {}give --format with one of {}{}",
         request.output,
-        meant_output(request.output),
+        similar_file(request.output, {".svg", ".pdf", ".eps"}),
         drawing_format_names(),
         request.output.ends_with(".png") ? ", or make a picture with 'vera render'" : ""));
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "option_values.h"
 
+#include "vera/base/similar_words.h"
+
 #include <cmath>
 
 #include "command.h"
@@ -20,6 +22,15 @@ double number_of(const char* option, double value, double least, double most) {
         throw CommandLineError(
             fmt::format("{} takes a number from {} to {}; found {}", option, least, most, value));
     return value;
+}
+
+std::string
+similar_file(const std::filesystem::path& file, const std::vector<std::string>& known_extensions) {
+    const auto similar = most_similar(file.extension().string(), known_extensions);
+    if (!similar)
+        return {};
+    auto meant = file;
+    return fmt::format("did you mean '{}'? Else ", meant.replace_extension(*similar).string());
 }
 
 } // namespace vera

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
 
 namespace vera {
 
@@ -9,5 +12,9 @@ namespace vera {
 
 std::uint32_t whole_of(const char* option, double value, std::uint32_t least, std::uint32_t most);
 double number_of(const char* option, double value, double least, double most);
+
+/// "did you mean 'a.png'? Else " for a name whose extension is like one of those that are known.
+std::string
+similar_file(const std::filesystem::path& file, const std::vector<std::string>& known_extensions);
 
 } // namespace vera

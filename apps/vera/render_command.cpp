@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/base/output_file.h"
-#include "vera/base/similar_words.h"
 #include "vera/base/version.h"
 #include "vera/formats/source_text.h"
 #include "vera/image/image_file.h"
@@ -47,16 +46,6 @@ struct Report {
     std::optional<Exposure> exposure;
 };
 
-/// "did you mean 'a.png'? Else " for a name whose extension is like one of those that are known.
-std::string similar_output(const std::filesystem::path& output) {
-    const std::vector<std::string> extensions = {".png", ".exr", ".jpg", ".jpeg", ".ppm", ".pfm"};
-    const auto similar = most_similar(output.extension().string(), extensions);
-    if (!similar)
-        return {};
-    auto meant = output;
-    return fmt::format("did you mean '{}'? Else ", meant.replace_extension(*similar).string());
-}
-
 ImageFileFormat output_format(const Request& request) {
     if (!request.format.empty()) {
         if (const auto format = format_from_name(request.format))
@@ -71,7 +60,7 @@ ImageFileFormat output_format(const Request& request) {
     throw CommandLineError(fmt::format(
         "cannot tell the format of '{}' by its name; {}give --format with one of {}",
         request.output,
-        similar_output(request.output),
+        similar_file(request.output, {".png", ".exr", ".jpg", ".jpeg", ".ppm", ".pfm"}),
         format_names()));
 }
 

@@ -8,38 +8,19 @@
 #include <map>
 #include <set>
 
+#include "scene/contour_pieces.h"
 #include <gtest/gtest.h>
 
 namespace vera {
 namespace {
 
+using test::cubic_to;
+using test::line_to;
+using test::quarter_to;
 using Point = ContourPiece::Point;
 
 constexpr std::size_t most = 1 << 20;
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-ContourPiece line_to(Point end) {
-    ContourPiece piece;
-    piece.end = end;
-    return piece;
-}
-
-ContourPiece quarter_to(Point end, Point control) {
-    ContourPiece piece;
-    piece.kind = ContourPiece::Kind::conic;
-    piece.control[0] = control;
-    piece.weight = std::sqrt(0.5);
-    piece.end = end;
-    return piece;
-}
-
-ContourPiece cubic_to(Point end, Point first, Point second) {
-    ContourPiece piece;
-    piece.kind = ContourPiece::Kind::cubic;
-    piece.control = {first, second};
-    piece.end = end;
-    return piece;
-}
 
 RotationalShape shape_of(Point start, std::vector<ContourPiece> contour) {
     RotationalShape shape;

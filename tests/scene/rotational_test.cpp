@@ -6,6 +6,7 @@
 #include <limits>
 #include <random>
 
+#include "scene/contour_pieces.h"
 #include "scene/make_scene.h"
 #include <gtest/gtest.h>
 
@@ -13,33 +14,12 @@ namespace vera {
 namespace {
 
 using test::crossings;
+using test::cubic_to;
+using test::line_to;
+using test::quarter_to;
 using Point = ContourPiece::Point;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-ContourPiece line_to(Point end) {
-    ContourPiece piece;
-    piece.end = end;
-    return piece;
-}
-
-/// A quarter of a circle or an ellipse.
-ContourPiece quarter_to(Point end, Point control) {
-    ContourPiece piece;
-    piece.kind = ContourPiece::Kind::conic;
-    piece.control[0] = control;
-    piece.weight = std::sqrt(0.5);
-    piece.end = end;
-    return piece;
-}
-
-ContourPiece cubic_to(Point end, Point first, Point second) {
-    ContourPiece piece;
-    piece.kind = ContourPiece::Kind::cubic;
-    piece.control = {first, second};
-    piece.end = end;
-    return piece;
-}
 
 RotationalShape ball() {
     RotationalShape shape;

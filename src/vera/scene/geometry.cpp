@@ -4,6 +4,7 @@
 #include "vera/base/check.h"
 #include "vera/base/diagnostic.h"
 #include "vera/scene/bounds.h"
+#include "vera/scene/item_names.h"
 #include "vera/scene/scene.h"
 
 #include <algorithm>
@@ -66,26 +67,6 @@ refuse(const Scene& scene, const Item& item, const std::string& problem, const c
     throw InputError({diagnostic});
 }
 
-const char* name_of(ItemKind kind) {
-    switch (kind) {
-    case ItemKind::sphere:
-        return "sphere";
-    case ItemKind::triangle:
-        return "triangle";
-    case ItemKind::polygon:
-        return "polygon";
-    case ItemKind::patch:
-        return "patch";
-    case ItemKind::rotational_shape:
-        return "rotational shape";
-    case ItemKind::mesh:
-        return "mesh";
-    case ItemKind::subscene_call:
-        break;
-    }
-    return "subscene";
-}
-
 void number_geometry(const Scene& scene, Geometry& geometry) {
     geometry.compounds.clear();
     std::uint64_t elements = 0;
@@ -125,6 +106,26 @@ void number_geometry(const Scene& scene, Geometry& geometry) {
 }
 
 } // namespace
+
+const char* name_of(ItemKind kind) {
+    switch (kind) {
+    case ItemKind::sphere:
+        return "sphere";
+    case ItemKind::triangle:
+        return "triangle";
+    case ItemKind::polygon:
+        return "polygon";
+    case ItemKind::patch:
+        return "patch";
+    case ItemKind::rotational_shape:
+        return "rotational shape";
+    case ItemKind::mesh:
+        return "mesh";
+    case ItemKind::subscene_call:
+        break;
+    }
+    return "subscene";
+}
 
 std::vector<std::size_t> callees_first(const Scene& scene) {
     enum class State : std::uint8_t { unseen, open, done };

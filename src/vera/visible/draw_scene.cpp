@@ -2,6 +2,7 @@
 #include "vera/visible/draw_scene.h"
 
 #include "vera/base/diagnostic.h"
+#include "vera/scene/item_names.h"
 #include "vera/shade/firmament.h"
 #include "vera/shade/lighting.h"
 #include "vera/visible/drawn_faces.h"
@@ -83,31 +84,11 @@ Color light_of_face(const Painted& painted, std::uint32_t face, const VisibleMap
     return sum(terms);
 }
 
-std::string kind_name(ItemKind kind) {
-    switch (kind) {
-    case ItemKind::sphere:
-        return "sphere";
-    case ItemKind::triangle:
-        return "triangle";
-    case ItemKind::polygon:
-        return "polygon";
-    case ItemKind::patch:
-        return "patch";
-    case ItemKind::rotational_shape:
-        return "rotational shape";
-    case ItemKind::mesh:
-        return "mesh";
-    case ItemKind::subscene_call:
-        break;
-    }
-    return "subscene";
-}
-
 /// Of the item that holds the primitive: what it is, and where it was written.
 std::string group_name(const Scene& scene, std::uint64_t primitive) {
     const PrimitivePath path = path_to(scene, primitive);
     const Item& item = path.geometry->items[path.element.item];
-    std::string name = kind_name(item.kind);
+    std::string name = name_of(item.kind);
     if (!path.geometry->name.empty())
         name += " of " + path.geometry->name;
     return item.line == 0 ? name : name + ", line " + std::to_string(item.line);
