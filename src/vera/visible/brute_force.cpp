@@ -39,7 +39,7 @@ Nearness doubled_nearness(const DepthPlane& plane, std::int64_t x, std::int64_t 
 } // namespace
 
 SeenAt seen_at(const ScreenScene& scene, std::int64_t x_in_halves, std::int64_t y_in_halves) {
-    SeenAt result = {no_source, false};
+    SeenAt result = {no_source, 0, false};
     Nearness best = {};
     for (const ScreenTriangle& triangle : scene.triangles) {
         const auto corners = corners_of(scene, triangle);
@@ -47,6 +47,8 @@ SeenAt seen_at(const ScreenScene& scene, std::int64_t x_in_halves, std::int64_t 
         if (included < 0)
             continue;
         result.has_side_at = result.has_side_at || included == 0;
+        if (triangle.is_shadow())
+            continue;
         const Nearness here = doubled_nearness(depth_plane(corners), x_in_halves, y_in_halves);
         const int ahead = result.source == no_source
             ? 1
@@ -57,6 +59,11 @@ SeenAt seen_at(const ScreenScene& scene, std::int64_t x_in_halves, std::int64_t 
             result.source = triangle.source;
         }
     }
+    result.unlit = scene.unlit_of(result.source);
+    for (const ScreenTriangle& triangle : scene.triangles)
+        if (triangle.is_shadow() && triangle.source == result.source
+            && inclusion(corners_of(scene, triangle), x_in_halves, y_in_halves) >= 0)
+            result.unlit |= LightSet{1} << triangle.light;
     return result;
 }
 

@@ -12,6 +12,7 @@ namespace vera {
 /// triangle: has_side_at is then set.
 struct SeenAt {
     std::uint32_t source = 0; ///< or no_source
+    LightSet unlit = 0;       ///< the lights that do not reach it there
     bool has_side_at = false;
 };
 

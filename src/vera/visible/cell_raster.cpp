@@ -46,6 +46,14 @@ struct Cover {
 
 constexpr std::uint32_t no_cover = ~std::uint32_t{0};
 
+/// What is seen beside a part of an edge.
+struct Seen {
+    std::uint32_t triangle = no_triangle;
+    LightSet unlit = 0;
+
+    friend bool operator==(const Seen&, const Seen&) = default;
+};
+
 /// A place of the edge at which a cover begins or ends, or a triangle touches it.
 struct Event {
     double value = 0;
@@ -98,6 +106,8 @@ private:
     void sort_events();
     void change_active(const Event& event);
     const Cover* nearest(std::uint8_t side, const Event& first, const Event& last);
+    Seen seen(const Cover* nearest, std::uint8_t side) const;
+    bool speaks_here(std::uint32_t edge, const Cover* left, const Cover* right) const;
     int nearer(std::uint32_t a, std::uint32_t b, double first, double last);
 
     NearnessPlace place_at(double place) const {
@@ -115,7 +125,8 @@ private:
     std::vector<Cover> covers_;
     std::vector<SegmentPlace> touches_; ///< where a triangle has a corner on the edge and no more
     std::vector<Event> events_;
-    std::vector<std::uint32_t> active_; ///< covers
+    std::vector<std::uint32_t> active_; ///< covers by surfaces
+    std::vector<std::uint32_t> active_shadows_;
     ScreenPoint begin_;
     ScreenPoint end_;
     VisiblePieces* result_ = nullptr;
@@ -237,10 +248,12 @@ void EdgeSweep::sort_events() {
 void EdgeSweep::change_active(const Event& event) {
     if (event.cover == no_cover)
         return;
+    const bool is_shadow = raster_.scene.triangles[covers_[event.cover].triangle].is_shadow();
+    std::vector<std::uint32_t>& active = is_shadow ? active_shadows_ : active_;
     if (event.begins)
-        active_.push_back(event.cover);
+        active.push_back(event.cover);
     else
-        active_.erase(std::find(active_.begin(), active_.end(), event.cover));
+        active.erase(std::find(active.begin(), active.end(), event.cover));
 }
 
 /// 1 where a is in front of b between the places, -1 where b is.
@@ -274,12 +287,30 @@ const Cover* EdgeSweep::nearest(std::uint8_t side, const Event& first, const Eve
     return best;
 }
 
-/// Of several edges in one place that what is seen beside it has, one speaks for all.
-bool speaks_here(std::uint32_t edge, const Cover* left, const Cover* right) {
+Seen EdgeSweep::seen(const Cover* nearest, std::uint8_t side) const {
+    if (nearest == nullptr)
+        return {};
+    const std::uint32_t source = source_of(nearest->triangle);
+    Seen seen = {nearest->triangle, raster_.scene.unlit_of(source)};
+    for (const std::uint32_t i : active_shadows_) {
+        const ScreenTriangle& shadow = raster_.scene.triangles[covers_[i].triangle];
+        if ((covers_[i].sides & side) != 0 && shadow.source == source)
+            seen.unlit |= LightSet{1} << shadow.light;
+    }
+    return seen;
+}
+
+/// Of several edges in one place that what is seen beside it has, one speaks for all: of those of
+/// the surfaces or, within a surface, of those of the shadows on it.
+bool EdgeSweep::speaks_here(std::uint32_t edge, const Cover* left, const Cover* right) const {
     std::uint32_t first = no_edge;
     for (const Cover* cover : {left, right})
         if (cover != nullptr)
             first = std::min(first, cover->edge);
+    if (left == right && left != nullptr)
+        for (const std::uint32_t i : active_shadows_)
+            if (source_of(covers_[i].triangle) == source_of(left->triangle))
+                first = std::min(first, covers_[i].edge);
     return edge == first;
 }
 
@@ -294,15 +325,19 @@ void EdgeSweep::follow(std::uint32_t edge, VisiblePieces& result) {
         add_cover(triangle);
     sort_events();
     active_.clear();
+    active_shadows_.clear();
 
     struct Piece {
         SegmentPlace first;
-        std::uint32_t left = no_triangle;
-        std::uint32_t right = no_triangle;
+        Seen left = {};
+        Seen right = {};
     };
 
     Piece open;
-    const auto is_open = [&] { return source_of(open.left) != source_of(open.right); };
+    const auto is_open = [&] {
+        return source_of(open.left.triangle) != source_of(open.right.triangle)
+            || open.left.unlit != open.right.unlit;
+    };
     const auto close = [&](SegmentPlace last) {
         if (is_open())
             result.pieces.push_back(
@@ -310,8 +345,10 @@ void EdgeSweep::follow(std::uint32_t edge, VisiblePieces& result) {
                  point_at(begin_, end_, last),
                  begin_,
                  end_,
-                 open.left,
-                 open.right});
+                 open.left.triangle,
+                 open.right.triangle,
+                 open.left.unlit,
+                 open.right.unlit});
     };
     for (std::size_t i = 0; i < events_.size();) {
         const Event& here = events_[i];
@@ -326,8 +363,8 @@ void EdgeSweep::follow(std::uint32_t edge, VisiblePieces& result) {
             const Cover* left = nearest(left_side, here, events_[next]);
             const Cover* right = nearest(right_side, here, events_[next]);
             if (speaks_here(edge, left, right)) {
-                piece.left = left != nullptr ? left->triangle : no_triangle;
-                piece.right = right != nullptr ? right->triangle : no_triangle;
+                piece.left = seen(left, left_side);
+                piece.right = seen(right, right_side);
             }
         }
         // Where a corner touches the edge, or others of the same source come to be seen, what is

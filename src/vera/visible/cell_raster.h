@@ -15,7 +15,8 @@ namespace vera {
 /// No triangle is seen: the background.
 constexpr std::uint32_t no_triangle = ~std::uint32_t{0};
 
-/// A part of an edge that is seen, with different sources beside it.
+/// A part of an edge that is seen, with different sources beside it, or one that different lights
+/// reach.
 struct VisiblePiece {
     RationalPoint from;
     RationalPoint to;
@@ -23,6 +24,8 @@ struct VisiblePiece {
     ScreenPoint edge_end;
     std::uint32_t left = no_triangle; ///< which are seen beside it
     std::uint32_t right = no_triangle;
+    LightSet left_unlit = 0; ///< the lights that do not reach them there
+    LightSet right_unlit = 0;
 };
 
 /// What is seen of a scene: all pieces of edges that part what is seen, each once.

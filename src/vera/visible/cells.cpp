@@ -9,18 +9,6 @@ namespace vera {
 
 namespace {
 
-/// Columns of cells, none where last < first.
-struct Columns {
-    std::int32_t first = 0;
-    std::int32_t last = -1;
-};
-
-/// What of a row of cells a triangle touches, and what it covers altogether.
-struct RowOfCells {
-    Columns touched;
-    Columns covered;
-};
-
 /// The part of a line across the picture that lies in a convex area.
 struct Chord {
     double left = std::numeric_limits<double>::infinity();
@@ -47,52 +35,6 @@ Chord chord_at(const std::array<ScreenVertex, 3>& corners, std::int64_t y) {
                     / static_cast<double>(b.y - a.y));
     }
     return chord;
-}
-
-/// What of the row from height low to high the triangle touches and covers; perhaps a cell more of
-/// the one, and a cell less of the other.
-RowOfCells row_of_cells(
-    const Cells& cells,
-    const std::array<ScreenVertex, 3>& corners,
-    std::int64_t low,
-    std::int64_t high) {
-    const Chord below = chord_at(corners, low);
-    const Chord above = chord_at(corners, high);
-    Chord all = below;
-    all.left = std::min(all.left, above.left);
-    all.right = std::max(all.right, above.right);
-    for (const ScreenVertex& corner : corners)
-        if (corner.point.y >= low && corner.point.y <= high)
-            all.include(corner.point.x);
-    RowOfCells row;
-    if (!(all.left <= all.right))
-        return row;
-    const auto column = [&](double x) {
-        return cells.cell_of(static_cast<std::int32_t>(std::clamp<double>(x, 0, screen_size)));
-    };
-    row.touched = {column(all.left - 1), column(all.right + 1)};
-    // Between the chords' ends the sides bulge outward.
-    const double left = std::max(below.left, above.left) + 1;
-    const double right = std::min(below.right, above.right) - 1;
-    const double size = std::ldexp(1.0, cells.shift);
-    if (left < right)
-        row.covered = {
-            static_cast<std::int32_t>(std::ceil(left / size)),
-            static_cast<std::int32_t>(std::floor(right / size)) - 1};
-    return row;
-}
-
-/// Calls visit(row, RowOfCells) for the rows that the triangle touches.
-template <typename Visit>
-void for_each_row_of(
-    const Cells& cells, const std::array<ScreenVertex, 3>& corners, const Visit& visit) {
-    const auto [lowest, highest] =
-        std::minmax({corners[0].point.y, corners[1].point.y, corners[2].point.y});
-    const std::int32_t last = cells.cell_of(highest);
-    for (std::int32_t row = cells.cell_of(lowest); row <= last; ++row) {
-        const std::int64_t low = std::int64_t{row} << cells.shift;
-        visit(row, row_of_cells(cells, corners, low, low + (std::int64_t{1} << cells.shift)));
-    }
 }
 
 /// Not more than how near the plane is at any point of the cell.
@@ -126,7 +68,9 @@ void block_cells(
     const ScreenScene& scene,
     std::span<const DepthPlane> planes,
     std::span<const NearnessSlope> slopes) {
-    for (std::size_t i = 0; i < scene.triangles.size(); ++i)
+    for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
+        if (scene.triangles[i].is_shadow())
+            continue;
         for_each_row_of(
             cells,
             corners_of(scene, scene.triangles[i]),
@@ -139,6 +83,7 @@ void block_cells(
                         least_nearness(cells, planes[i], lower) - hidden_margin(slopes[i]));
                 }
             });
+    }
 }
 
 /// Calls visit(cell, triangle) for the triangles of each cell that are not hidden there.
@@ -185,6 +130,37 @@ std::uint64_t count_entries(
 
 } // namespace
 
+RowOfCells row_of_cells(
+    const Cells& cells,
+    const std::array<ScreenVertex, 3>& corners,
+    std::int64_t low,
+    std::int64_t high) {
+    const Chord below = chord_at(corners, low);
+    const Chord above = chord_at(corners, high);
+    Chord all = below;
+    all.left = std::min(all.left, above.left);
+    all.right = std::max(all.right, above.right);
+    for (const ScreenVertex& corner : corners)
+        if (corner.point.y >= low && corner.point.y <= high)
+            all.include(corner.point.x);
+    RowOfCells row;
+    if (!(all.left <= all.right))
+        return row;
+    const auto column = [&](double x) {
+        return cells.cell_of(static_cast<std::int32_t>(std::clamp<double>(x, 0, screen_size)));
+    };
+    row.touched = {column(all.left - 1), column(all.right + 1)};
+    // Between the chords' ends the sides bulge outward.
+    const double left = std::max(below.left, above.left) + 1;
+    const double right = std::min(below.right, above.right) - 1;
+    const double size = std::ldexp(1.0, cells.shift);
+    if (left < right)
+        row.covered = {
+            static_cast<std::int32_t>(std::ceil(left / size)),
+            static_cast<std::int32_t>(std::floor(right / size)) - 1};
+    return row;
+}
+
 Cells cells_of(
     const ScreenScene& scene,
     std::span<const DepthPlane> planes,
@@ -203,6 +179,18 @@ Cells cells_of(
         cells.triangles[next[cell]++] = i;
     });
     return cells;
+}
+
+Cells cells_of(const ScreenScene& scene, const CancelFlag* cancel) {
+    std::vector<DepthPlane> planes;
+    std::vector<NearnessSlope> slopes;
+    planes.reserve(scene.triangles.size());
+    slopes.reserve(scene.triangles.size());
+    for (const ScreenTriangle& triangle : scene.triangles) {
+        planes.push_back(depth_plane(corners_of(scene, triangle)));
+        slopes.push_back(nearness_slope(planes.back()));
+    }
+    return cells_of(scene, planes, slopes, cancel);
 }
 
 } // namespace vera

@@ -38,6 +38,39 @@ struct Cells {
     }
 };
 
+/// Columns of cells, none where last < first.
+struct Columns {
+    std::int32_t first = 0;
+    std::int32_t last = -1;
+};
+
+/// What of a row of cells a triangle touches, and what it covers altogether.
+struct RowOfCells {
+    Columns touched;
+    Columns covered;
+};
+
+/// What of the row from height low to high the triangle touches and covers; perhaps a cell more of
+/// the one, and a cell less of the other.
+RowOfCells row_of_cells(
+    const Cells& cells,
+    const std::array<ScreenVertex, 3>& corners,
+    std::int64_t low,
+    std::int64_t high);
+
+/// Calls visit(row, RowOfCells) for the rows that the triangle touches.
+template <typename Visit>
+void for_each_row_of(
+    const Cells& cells, const std::array<ScreenVertex, 3>& corners, const Visit& visit) {
+    const auto [lowest, highest] =
+        std::minmax({corners[0].point.y, corners[1].point.y, corners[2].point.y});
+    const std::int32_t last = cells.cell_of(highest);
+    for (std::int32_t row = cells.cell_of(lowest); row <= last; ++row) {
+        const std::int64_t low = std::int64_t{row} << cells.shift;
+        visit(row, row_of_cells(cells, corners, low, low + (std::int64_t{1} << cells.shift)));
+    }
+}
+
 /// planes[i] and slopes[i] are those of triangle i. Where many triangles lie one behind the other
 /// there are fewer cells, so that the lists stay in proportion to the triangles.
 Cells cells_of(
@@ -45,6 +78,9 @@ Cells cells_of(
     std::span<const DepthPlane> planes,
     std::span<const NearnessSlope> slopes,
     const CancelFlag* cancel = nullptr);
+
+/// The same where planes and slopes are not needed otherwise.
+Cells cells_of(const ScreenScene& scene, const CancelFlag* cancel = nullptr);
 
 /// By how much something must be behind what blocks a cell to be hidden there whatever the order of
 /// the two: see front_order.h.

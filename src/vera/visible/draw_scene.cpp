@@ -2,6 +2,7 @@
 #include "vera/visible/draw_scene.h"
 
 #include "vera/base/diagnostic.h"
+#include "vera/base/progress_part.h"
 #include "vera/scene/item_names.h"
 #include "vera/shade/firmament.h"
 #include "vera/shade/lighting.h"
@@ -9,6 +10,7 @@
 #include "vera/visible/outline_strokes.h"
 #include "vera/visible/penetrations.h"
 #include "vera/visible/projection.h"
+#include "vera/visible/shadows.h"
 #include "vera/visible/visible_map.h"
 
 #include <algorithm>
@@ -56,8 +58,9 @@ DrawingPoint drawn_point(const Painted& painted, std::uint32_t vertex) {
 }
 
 /// What the face gives back towards the viewer at the point of its plane that is seen in the middle
-/// of the ring, without shadows and mirrors.
+/// of the ring, without mirrors.
 Color light_of_face(const Painted& painted, std::uint32_t face, const VisibleMap::Ring& ring) {
+    const LightSet shadowed = painted.map.regions[ring.region].unlit;
     const Facets::Triangle& facet = painted.facets.triangles[painted.faces.first_facet[face]];
     const Vec3 a = painted.facets.corners[facet.corners[0]];
     const Vec3 normal = normalized(cross(
@@ -79,8 +82,9 @@ Color light_of_face(const Painted& painted, std::uint32_t face, const VisibleMap
     const Material& material = material_of(painted.scene, facet.material);
     const Incidence at = incidence(surface, ray.direction);
     LocalTerms terms = unlit(at, material, painted.picture.ambient);
-    for (const PointLight& light : painted.scene.lights)
-        terms += unshadowed(at, material, light);
+    for (std::size_t i = 0; i < painted.scene.lights.size(); ++i)
+        if (i >= most_lights_of_a_set || (shadowed >> i & 1U) == 0)
+            terms += unshadowed(at, material, painted.scene.lights[i]);
     return sum(terms);
 }
 
@@ -94,31 +98,22 @@ std::string group_name(const Scene& scene, std::uint64_t primitive) {
     return item.line == 0 ? name : name + ", line " + std::to_string(item.line);
 }
 
-/// The rings of one face after the other.
-class FaceRings {
+/// The rings of one region after the other.
+class RegionRings {
 public:
-    explicit FaceRings(const VisibleMap& map)
+    explicit RegionRings(const VisibleMap& map)
         : map_(map) {
         for (std::size_t i = 0; i < map.rings.size(); ++i)
-            if (i == 0 || map.rings[i].source != map.rings[i - 1].source)
+            if (i == 0 || map.rings[i].region != map.rings[i - 1].region)
                 starts_.push_back(i);
         starts_.push_back(map.rings.size());
     }
 
     std::size_t count() const { return starts_.size() - 1; }
 
-    std::span<const VisibleMap::Ring> operator[](std::size_t number) const {
+    std::span<const VisibleMap::Ring> operator[](std::size_t region) const {
         return std::span(map_.rings)
-            .subspan(starts_[number], starts_[number + 1] - starts_[number]);
-    }
-
-    /// Of a face that is seen.
-    std::span<const VisibleMap::Ring> of_face(std::uint32_t face) const {
-        const auto found = std::lower_bound(
-            starts_.begin(), starts_.end() - 1, face, [&](std::size_t start, std::uint32_t value) {
-                return map_.rings[start].source < value;
-            });
-        return (*this)[static_cast<std::size_t>(found - starts_.begin())];
+            .subspan(starts_[region], starts_[region + 1] - starts_[region]);
     }
 
 private:
@@ -143,12 +138,12 @@ void add_rings(
     }
 }
 
-/// Where two faces meet, what smooths edges lets through what lies behind both. So a face goes on
+/// Where two regions meet, what smooths edges lets through what lies behind both. So one goes on
 /// below those beside it that are painted later: all of them where they are small, which moves no
 /// silhouette; else a strip.
 void cover_seams(
     const Painted& painted,
-    const FaceRings& all,
+    const RegionRings& all,
     std::span<const VisibleMap::Ring> own,
     FilledOutline& outline) {
     constexpr std::size_t small = 16;
@@ -158,9 +153,9 @@ void cover_seams(
         const std::vector<DrawingPoint> points = outline.rings[i];
         for (std::size_t j = 0; j < points.size(); ++j) {
             const std::uint32_t across = painted.map.ring_across[own[i].first + j];
-            if (across == no_source || across <= own[i].source)
+            if (across == no_region || across <= own[i].region)
                 continue;
-            const auto others = all.of_face(across);
+            const auto others = all[across];
             if (vertex_count(others) > small) {
                 outline.seams.push_back({points[j], points[j + 1 == points.size() ? 0 : j + 1]});
             } else if (std::find(below.begin(), below.end(), across) == below.end()) {
@@ -184,7 +179,7 @@ color_of(const Painted& painted, std::uint32_t face, std::span<const VisibleMap:
 }
 
 void add_fills(const Painted& painted, Drawing& drawing) {
-    const FaceRings all(painted.map);
+    const RegionRings all(painted.map);
     std::uint64_t grouped = 0;
     std::string group;
     for (std::size_t number = 0; number < all.count(); ++number) {
@@ -249,8 +244,11 @@ DrawnScene draw_scene(
     const DrawnFaces faces = drawn_faces(
         scene, all, settings.style == DrawingStyle::ids ? FaceUnit::primitive : FaceUnit::plane);
     ScreenScene screen = screen_scene(all, camera_map, faces.of_facet);
+    const bool has_shadows = picture.shadows && settings.style != DrawingStyle::ids;
+    if (has_shadows)
+        add_shadows({scene, all, faces, camera, camera_map}, screen, progress_part(progress, 0, 2), cancel);
     sort_by_place(screen);
-    const WholePieces whole = whole_pieces(screen, progress, cancel);
+    const WholePieces whole = whole_pieces(screen, has_shadows ? progress_part(progress, 1, 2) : progress, cancel);
     const VisibleMap map = visible_map(screen, whole.pieces);
 
     const Painted painted = {scene, camera, picture, settings, all, faces, map};

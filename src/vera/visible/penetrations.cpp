@@ -83,7 +83,7 @@ private:
 /// Adds the parts of a triangle whose sides have these new corners.
 void add_parts(ScreenScene& scene, const ScreenTriangle& triangle, const SideCuts& cuts) {
     const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-        add_triangle(scene, {a, b, c}, triangle.source);
+        add_triangle(scene, {a, b, c}, triangle.source, triangle.light);
     };
     const auto& corners = triangle.vertices;
     std::size_t count = 0;

@@ -2,6 +2,8 @@
 #include "vera/visible/projection.h"
 
 #include "vera/base/diagnostic.h"
+#include "vera/visible/cut_polygon.h"
+#include "vera/visible/vertex_numbers.h"
 
 #include <algorithm>
 #include <array>
@@ -24,62 +26,6 @@ Affine3 map_of(Vec3 x, Vec3 y, Vec3 z, Vec3 origin) {
     map.translation = origin;
     return map;
 }
-
-/// A polygon that is cut side by side.
-class CutPolygon {
-public:
-    explicit CutPolygon(const std::array<ImagePoint, 3>& corners) {
-        for (const ImagePoint& corner : corners)
-            points_[count_++] = corner;
-    }
-
-    /// Leaves where inside(point), which is affine, is not negative. adjust(point) is called for
-    /// new points, on which it is 0.
-    template <typename Inside, typename Adjust>
-    void cut(const Inside& inside, const Adjust& adjust) {
-        const std::array<ImagePoint, most> from = points_;
-        const std::size_t count = count_;
-        count_ = 0;
-        for (std::size_t i = 0; i < count; ++i) {
-            const ImagePoint& here = from[i];
-            const ImagePoint& next = from[i + 1 == count ? 0 : i + 1];
-            const double at_here = inside(here);
-            const double at_next = inside(next);
-            if (at_here >= 0)
-                add(here);
-            if ((at_here > 0 && at_next < 0) || (at_here < 0 && at_next > 0)) {
-                ImagePoint point = between(here, next, at_here, at_next);
-                adjust(point);
-                add(point);
-            }
-        }
-    }
-
-    std::span<const ImagePoint> points() const { return std::span(points_).first(count_); }
-
-private:
-    // Each of five cuts adds one point at most; rounding may add another.
-    static constexpr std::size_t most = 13;
-
-    void add(const ImagePoint& point) {
-        if (count_ < most)
-            points_[count_++] = point;
-    }
-
-    /// The same to the bit from either end, so that faces that share a side share its cuts.
-    static ImagePoint between(ImagePoint a, ImagePoint b, double at_a, double at_b) {
-        if (std::tie(b.x, b.y, b.w, b.depth) < std::tie(a.x, a.y, a.w, a.depth)) {
-            std::swap(a, b);
-            std::swap(at_a, at_b);
-        }
-        const double part = at_a / (at_a - at_b);
-        const auto mixed = [&](double from, double to) { return from + part * (to - from); };
-        return {mixed(a.x, b.x), mixed(a.y, b.y), mixed(a.w, b.w), mixed(a.depth, b.depth)};
-    }
-
-    std::array<ImagePoint, most> points_ = {};
-    std::size_t count_ = 0;
-};
 
 /// What lies in the frame, and no nearer than w = nearest.
 void cut_to_frame(CutPolygon& polygon, double nearest) {
@@ -119,48 +65,6 @@ struct DepthRange {
         least = std::min(least, value);
         most = std::max(most, value);
     }
-};
-
-/// Numbers vertices, equal ones alike.
-class VertexNumbers {
-public:
-    explicit VertexNumbers(std::vector<ScreenVertex>& vertices)
-        : vertices_(vertices)
-        , places_(1024, none) {}
-
-    std::uint32_t number(const ScreenVertex& vertex) {
-        if (2 * vertices_.size() >= places_.size())
-            grow();
-        const std::size_t place = place_of(vertex);
-        if (places_[place] == none) {
-            places_[place] = static_cast<std::uint32_t>(vertices_.size());
-            vertices_.push_back(vertex);
-        }
-        return places_[place];
-    }
-
-private:
-    static constexpr std::uint32_t none = ~std::uint32_t{0};
-
-    std::size_t place_of(const ScreenVertex& vertex) const {
-        std::uint64_t hash = static_cast<std::uint64_t>(vertex.point.x) << 32U
-            | static_cast<std::uint32_t>(vertex.point.y);
-        hash = (hash ^ hash >> 29U) * 0x9e3779b97f4a7c15U;
-        hash = (hash ^ static_cast<std::uint64_t>(vertex.nearness)) * 0xbf58476d1ce4e5b9U;
-        std::size_t place = (hash ^ hash >> 32U) & (places_.size() - 1);
-        while (places_[place] != none && vertices_[places_[place]] != vertex)
-            place = (place + 1) & (places_.size() - 1);
-        return place;
-    }
-
-    void grow() {
-        places_.assign(2 * places_.size(), none);
-        for (std::uint32_t i = 0; i < vertices_.size(); ++i)
-            places_[place_of(vertices_[i])] = i;
-    }
-
-    std::vector<ScreenVertex>& vertices_;
-    std::vector<std::uint32_t> places_;
 };
 
 /// Moves points to the grid.

@@ -35,14 +35,18 @@ std::array<std::uint32_t, 3> sorted(std::array<std::uint32_t, 3> vertices) {
 
 } // namespace
 
-void add_triangle(ScreenScene& scene, std::array<std::uint32_t, 3> vertices, std::uint32_t source) {
+void add_triangle(
+    ScreenScene& scene,
+    std::array<std::uint32_t, 3> vertices,
+    std::uint32_t source,
+    std::uint32_t light) {
     const auto point = [&](std::size_t i) { return scene.vertices[vertices[i]].point; };
     const std::int64_t area = orientation(point(0), point(1), point(2));
     if (area == 0)
         return;
     if (area < 0)
         std::swap(vertices[1], vertices[2]);
-    scene.triangles.push_back({vertices, source});
+    scene.triangles.push_back({vertices, source, light});
 }
 
 void sort_by_place(ScreenScene& scene) {
@@ -56,16 +60,24 @@ void sort_by_place(ScreenScene& scene) {
         order[i] = {morton_code(corners_of(scene, scene.triangles[i])), i};
     const auto key = [&](const Placed& placed) {
         const ScreenTriangle& triangle = scene.triangles[placed.triangle];
-        return std::tuple(placed.code, sorted(triangle.vertices), triangle.source, placed.triangle);
+        return std::tuple(
+            placed.code,
+            !triangle.is_shadow(),
+            sorted(triangle.vertices),
+            triangle.source,
+            triangle.light,
+            placed.triangle);
     };
     std::sort(order.begin(), order.end(), [&](const Placed& a, const Placed& b) {
         return a.code != b.code ? a.code < b.code : key(a) < key(b);
     });
-    // Of triangles between the same vertices the first of the text alone is seen.
+    // Of surfaces between the same vertices the first of the text alone is seen.
     const auto duplicates =
         std::unique(order.begin(), order.end(), [&](const Placed& a, const Placed& b) {
-            return sorted(scene.triangles[a.triangle].vertices)
-                == sorted(scene.triangles[b.triangle].vertices);
+            const ScreenTriangle& one = scene.triangles[a.triangle];
+            const ScreenTriangle& other = scene.triangles[b.triangle];
+            return sorted(one.vertices) == sorted(other.vertices) && one.light == other.light
+                && (!one.is_shadow() || one.source == other.source);
         });
     order.erase(duplicates, order.end());
 

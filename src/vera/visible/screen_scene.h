@@ -12,17 +12,35 @@ namespace vera {
 /// Stands for no source: the background.
 constexpr std::uint32_t no_source = ~std::uint32_t{0};
 
+/// Lights, a bit each.
+using LightSet = std::uint32_t;
+
+constexpr std::uint32_t most_lights_of_a_set = 32;
+
+/// Stands for no light: the triangle is a surface.
+constexpr std::uint32_t no_light = ~std::uint32_t{0};
+
 /// A triangle of the picture. Its corners go round to the left, and it has an area.
 struct ScreenTriangle {
     std::array<std::uint32_t, 3> vertices = {}; ///< in ScreenScene::vertices
     std::uint32_t source = 0; ///< of what it is a part: of coincident ones the smaller is in front
+    /// Of a shadow, the light that does not reach its source there. A shadow lies on its source, may
+    /// reach beyond it, where it means nothing, and hides nothing.
+    std::uint32_t light = no_light;
+
+    bool is_shadow() const { return light != no_light; }
 };
 
 /// A scene as the picture shows it: all within the frame, moved to the grid.
 struct ScreenScene {
     std::vector<ScreenVertex> vertices;
     std::vector<ScreenTriangle> triangles;
+    std::vector<LightSet> unlit; ///< by source, the lights that reach none of it; or empty: all do
     double cut_nearness = 0; ///< what was so much nearer than the image plane was cut away; or 0
+
+    LightSet unlit_of(std::uint32_t source) const {
+        return source < unlit.size() ? unlit[source] : 0;
+    }
 };
 
 /// The points of the triangle's corners.
@@ -36,10 +54,14 @@ corners_of(const ScreenScene& scene, const ScreenTriangle& triangle) {
 
 /// Adds a triangle with these corners, turned to the left. One without an area is left out: it is
 /// seen edge-on.
-void add_triangle(ScreenScene& scene, std::array<std::uint32_t, 3> vertices, std::uint32_t source);
+void add_triangle(
+    ScreenScene& scene,
+    std::array<std::uint32_t, 3> vertices,
+    std::uint32_t source,
+    std::uint32_t light = no_light);
 
 /// Sorts the triangles along a curve that fills the picture (Morton 1966), and the vertices by who
-/// uses them first: neighbours then stand close together in memory. Of several triangles between
+/// uses them first: neighbours then stand close together in memory. Of several surfaces between
 /// the same vertices one of the smallest source is left.
 void sort_by_place(ScreenScene& scene);
 

@@ -59,7 +59,7 @@ private:
 struct Ways {
     std::vector<std::uint32_t> from; ///< where they begin
     std::vector<ScreenStep> direction;
-    std::vector<std::uint32_t> source; ///< seen on the left
+    std::vector<std::uint32_t> region; ///< seen on the left
 
     std::uint32_t to(std::uint32_t way) const { return from[way ^ 1U]; }
 };
@@ -104,23 +104,23 @@ Leaving leaving_ways(const Ways& ways, std::size_t vertex_count) {
     return leaving;
 }
 
-/// Ways that end, or begin, where none of their source goes on.
+/// Ways that end, or begin, where none of their region goes on.
 struct Loose {
     std::vector<std::uint32_t> ends;
     std::vector<std::uint32_t> begins;
 };
 
-/// Joins each end to the nearest beginning of its source that is left.
+/// Joins each end to the nearest beginning of its region that is left.
 void join(Loose loose, const Ways& ways, std::vector<std::uint32_t>& following, VisibleMap& map) {
-    const auto by_source = [&](std::uint32_t a, std::uint32_t b) {
-        return ways.source[a] != ways.source[b] ? ways.source[a] < ways.source[b] : a < b;
+    const auto by_region = [&](std::uint32_t a, std::uint32_t b) {
+        return ways.region[a] != ways.region[b] ? ways.region[a] < ways.region[b] : a < b;
     };
-    std::sort(loose.ends.begin(), loose.ends.end(), by_source);
-    std::sort(loose.begins.begin(), loose.begins.end(), by_source);
-    // As many of each source end as begin.
+    std::sort(loose.ends.begin(), loose.ends.end(), by_region);
+    std::sort(loose.begins.begin(), loose.begins.end(), by_region);
+    // As many of each region end as begin.
     for (std::size_t first = 0, last = 0; first < loose.ends.size(); first = last) {
-        const std::uint32_t source = ways.source[loose.ends[first]];
-        while (last < loose.ends.size() && ways.source[loose.ends[last]] == source)
+        const std::uint32_t region = ways.region[loose.ends[first]];
+        while (last < loose.ends.size() && ways.region[loose.ends[last]] == region)
             ++last;
         std::vector<std::uint32_t> begins(
             loose.begins.begin() + static_cast<std::ptrdiff_t>(first),
@@ -154,7 +154,7 @@ std::vector<std::uint32_t> following(const Ways& ways, VisibleMap& map) {
             const std::uint32_t coming = here[i] ^ 1U;
             const std::uint32_t going = here[i == 0 ? here.size() - 1 : i - 1];
             result[coming] = going;
-            if (ways.source[coming] != ways.source[going]) {
+            if (ways.region[coming] != ways.region[going]) {
                 loose.ends.push_back(coming);
                 loose.begins.push_back(going);
             }
@@ -164,25 +164,89 @@ std::vector<std::uint32_t> following(const Ways& ways, VisibleMap& map) {
     return result;
 }
 
+/// Numbers regions in ascending order.
+class RegionNumbers {
+public:
+    void add(VisibleMap::Region region) {
+        if (region.source >= first_.size())
+            first_.resize(region.source + std::size_t{1}, none);
+        for (std::uint32_t i = first_[region.source]; i != none; i = listed_[i].next)
+            if (listed_[i].unlit == region.unlit)
+                return;
+        listed_.push_back({region.unlit, first_[region.source]});
+        first_[region.source] = static_cast<std::uint32_t>(listed_.size() - 1);
+    }
+
+    /// All that were added.
+    std::vector<VisibleMap::Region> numbered() {
+        std::vector<VisibleMap::Region> regions;
+        regions.reserve(listed_.size());
+        for (std::uint32_t source = 0; source < first_.size(); ++source) {
+            const std::size_t begin = regions.size();
+            for (std::uint32_t i = first_[source]; i != none; i = listed_[i].next)
+                regions.push_back({source, listed_[i].unlit});
+            std::sort(regions.begin() + static_cast<std::ptrdiff_t>(begin), regions.end());
+            for (std::uint32_t i = first_[source]; i != none; i = listed_[i].next) {
+                const auto found = std::find(
+                    regions.begin() + static_cast<std::ptrdiff_t>(begin),
+                    regions.end(),
+                    VisibleMap::Region{source, listed_[i].unlit});
+                listed_[i].number = static_cast<std::uint32_t>(found - regions.begin());
+            }
+        }
+        return regions;
+    }
+
+    std::uint32_t number(VisibleMap::Region region) const {
+        std::uint32_t i = first_[region.source];
+        while (listed_[i].unlit != region.unlit)
+            i = listed_[i].next;
+        return listed_[i].number;
+    }
+
+private:
+    struct Listed {
+        LightSet unlit = 0;
+        std::uint32_t next = none; ///< of the same source
+        std::uint32_t number = 0;
+    };
+
+    std::vector<std::uint32_t> first_; ///< of each source
+    std::vector<Listed> listed_;
+};
+
 Ways ways_of(const ScreenScene& scene, const VisiblePieces& pieces, VisibleMap& map) {
     const std::size_t count = pieces.pieces.size();
     Ways ways;
     ways.from.resize(2 * count);
     ways.direction.resize(2 * count);
-    ways.source.resize(2 * count);
-    PointNumbers numbers(map.vertices, count + count / 2);
-    const auto source_of = [&](std::uint32_t triangle) {
-        return triangle == no_triangle ? no_source : scene.triangles[triangle].source;
+    ways.region.resize(2 * count, no_region);
+    PointNumbers points(map.vertices, count + count / 2);
+    // Calls visit(way, region) for the ways with one on their left.
+    const auto for_each_region = [&](const auto& visit) {
+        for (std::size_t i = 0; i < count; ++i) {
+            const VisiblePiece& piece = pieces.pieces[i];
+            if (piece.left != no_triangle)
+                visit(2 * i, VisibleMap::Region{scene.triangles[piece.left].source, piece.left_unlit});
+            if (piece.right != no_triangle)
+                visit(
+                    2 * i + 1,
+                    VisibleMap::Region{scene.triangles[piece.right].source, piece.right_unlit});
+        }
     };
+    RegionNumbers regions;
+    for_each_region([&](std::size_t, VisibleMap::Region region) { regions.add(region); });
+    map.regions = regions.numbered();
+    for_each_region([&](std::size_t way, VisibleMap::Region region) {
+        ways.region[way] = regions.number(region);
+    });
     for (std::size_t i = 0; i < count; ++i) {
         const VisiblePiece& piece = pieces.pieces[i];
-        map.piece_ends.push_back({numbers.number(piece.from), numbers.number(piece.to)});
+        map.piece_ends.push_back({points.number(piece.from), points.number(piece.to)});
         ways.from[2 * i] = map.piece_ends.back()[0];
         ways.from[2 * i + 1] = map.piece_ends.back()[1];
         ways.direction[2 * i] = step(piece.edge_begin, piece.edge_end);
         ways.direction[2 * i + 1] = step(piece.edge_end, piece.edge_begin);
-        ways.source[2 * i] = source_of(piece.left);
-        ways.source[2 * i + 1] = source_of(piece.right);
     }
     return ways;
 }
@@ -203,26 +267,27 @@ VisibleMap visible_map(const ScreenScene& scene, const VisiblePieces& pieces) {
         map.ring_across.push_back(across);
     };
     for (std::uint32_t first = 0; first < ways.from.size(); ++first) {
-        if (done[first] != 0 || ways.source[first] == no_source)
+        if (done[first] != 0 || ways.region[first] == no_region)
             continue;
-        VisibleMap::Ring ring = {ways.source[first], map.ring_vertices.size(), 0};
+        VisibleMap::Ring ring = {
+            map.regions[ways.region[first]].source, ways.region[first], map.ring_vertices.size(), 0};
         std::uint32_t way = first;
         do {
             done[way] = 1;
             const std::uint32_t after = next[way];
             const bool is_joined = ways.to(way) != ways.from[after];
             if (is_joined)
-                add(ways.to(way), no_source);
+                add(ways.to(way), no_region);
             if (is_joined || !is_straight_on(ways.direction[way], ways.direction[after])
-                || ways.source[way ^ 1U] != ways.source[after ^ 1U])
-                add(ways.from[after], ways.source[after ^ 1U]);
+                || ways.region[way ^ 1U] != ways.region[after ^ 1U])
+                add(ways.from[after], ways.region[after ^ 1U]);
             way = after;
         } while (way != first);
         ring.count = map.ring_vertices.size() - ring.first;
         map.rings.push_back(ring);
     }
     std::stable_sort(map.rings.begin(), map.rings.end(), [](const auto& a, const auto& b) {
-        return a.source < b.source;
+        return a.region < b.region;
     });
     return map;
 }

@@ -12,23 +12,36 @@
 
 namespace vera {
 
-/// The picture cut into regions in which one source is seen each.
+/// Stands for no region: the background.
+constexpr std::uint32_t no_region = ~std::uint32_t{0};
+
+/// The picture cut into regions in which one source is seen each, which the same lights reach.
 struct VisibleMap {
-    /// A closed way along which the source is seen on the left: round a region, or, to the right,
-    /// round a hole in it. Its points are ring_vertices[first] to [first + count], at each of which
-    /// it turns, or something else begins to be seen on its right: ring_across of that number is
-    /// what is seen there from that point on.
+    /// May have several parts, and holes.
+    struct Region {
+        std::uint32_t source = 0;
+        LightSet unlit = 0; ///< the lights that do not reach it
+
+        friend auto operator<=>(const Region&, const Region&) = default;
+    };
+
+    /// A closed way along which the region is seen on the left: round a part of it, or, to the
+    /// right, round a hole in it. Its points are ring_vertices[first] to [first + count], at each
+    /// of which it turns, or something else begins to be seen on its right: ring_across of that
+    /// number is the region there from that point on.
     struct Ring {
         std::uint32_t source = 0;
+        std::uint32_t region = 0;
         std::size_t first = 0;
         std::size_t count = 0;
     };
 
     std::vector<RationalPoint> vertices;
     std::vector<std::array<std::uint32_t, 2>> piece_ends; ///< the vertices of each piece
-    std::vector<Ring> rings;                              ///< by source
+    std::vector<Region> regions;                          ///< in ascending order
+    std::vector<Ring> rings;                              ///< by region
     std::vector<std::uint32_t> ring_vertices;
-    std::vector<std::uint32_t> ring_across; ///< sources, or no_source
+    std::vector<std::uint32_t> ring_across; ///< regions, or no_region
     /// How often ways round what is seen had to be joined by a straight one. None where nothing was
     /// cut; else two surfaces may part what is seen along lines a step from each other, between
     /// which neither is seen for sure.

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vera/visible/light_views.h"
+
+#include "vera/base/progress_part.h"
+#include "vera/math/box3.h"
+#include "vera/shade/lighting.h"
+#include "vera/visible/cell_raster.h"
+#include "vera/visible/edges.h"
+#include "vera/visible/projection.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <span>
+#include <utility>
+
+namespace vera {
+
+namespace {
+
+/// A square view with that half side at distance 1.
+Camera square_view(Vec3 position, Vec3 forward, double half_side) {
+    const Vec3 away = std::abs(forward.z) < 0.75 ? Vec3{0, 0, 1} : Vec3{0, 1, 0};
+    const Vec3 across = half_side * normalized(cross(forward, away));
+    const Vec3 up = half_side * normalized(cross(across, forward));
+    Camera camera;
+    camera.viewpoint = position;
+    camera.lower_left = position + forward - across - up;
+    camera.lower_right = position + forward + across - up;
+    camera.upper_left = position + forward - across + up;
+    return camera;
+}
+
+std::vector<Camera> cameras_of(const Facets& facets, Vec3 position) {
+    Box3 box;
+    for (const Vec3& corner : facets.corners)
+        box = grown(box, corner);
+    const Vec3 to_middle = center(box) - position;
+    const double distance = length(to_middle);
+    if (distance > 0) {
+        const Vec3 forward = to_middle / distance;
+        // Of the widest angle to the middle, which a cube's side is not to exceed by much.
+        double tangent = 0;
+        for (unsigned i = 0; i < 8; ++i) {
+            const Vec3 to = corner(box, i) - position;
+            const double along = dot(to, forward);
+            tangent = along > 0 ? std::max(tangent, length(cross(to, forward)) / along) : 2;
+        }
+        if (tangent < 1.2)
+            return {square_view(position, forward, std::max(1.001 * tangent, 1e-6))};
+    }
+    std::vector<Camera> cameras;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        for (const double side : {-1.0, 1.0}) {
+            Vec3 forward;
+            forward[axis] = side;
+            cameras.push_back(square_view(position, forward, 1));
+        }
+    return cameras;
+}
+
+/// Which edges lie within one source.
+std::vector<std::uint8_t> inner_edges(const ScreenScene& view, const ScreenEdges& edges) {
+    std::vector<std::uint32_t> owner(edges.edges.size(), no_source);
+    std::vector<std::uint8_t> is_inner(edges.edges.size());
+    for (std::size_t i = 0; i < view.triangles.size(); ++i)
+        for (const std::uint32_t edge : edges.of_triangle[i]) {
+            if (owner[edge] == view.triangles[i].source)
+                is_inner[edge] = 1;
+            owner[edge] = view.triangles[i].source;
+        }
+    return is_inner;
+}
+
+} // namespace
+
+LitFacets::LitFacets(const Scene& scene, const Facets& facets)
+    : states_(facets.triangles.size()) {
+    for (std::size_t i = 0; i < states_.size(); ++i)
+        if (is_black(material_of(scene, facets.triangles[i].material).tab))
+            states_[i] = opaque;
+}
+
+void LitFacets::add(const ScreenScene& view, const Progress& progress, const CancelFlag* cancel) {
+    const VisiblePieces pieces = cell_raster(view, progress, cancel);
+    const ScreenEdges edges = screen_edges(view);
+    const std::vector<std::uint8_t> is_inner = inner_edges(view, edges);
+    // A surface that is seen beside an edge and goes on behind what is seen on the other side.
+    const auto goes_on = [&](std::uint32_t triangle, const VisiblePiece& piece) {
+        const auto corners = corners_of(view, view.triangles[triangle]);
+        for (std::size_t i = 0; i < 3; ++i) {
+            const ScreenPoint from = corners[i].point;
+            const ScreenPoint to = corners[(i + 1) % 3].point;
+            if (orientation(from, to, piece.edge_begin) == 0
+                && orientation(from, to, piece.edge_end) == 0)
+                return is_inner[edges.of_triangle[triangle][i]] != 0;
+        }
+        return true;
+    };
+    const auto add_state = [&](std::uint32_t facet, bool is_partly_hidden) {
+        const int state = states_[facet] | seen | (is_partly_hidden ? hidden : 0);
+        states_[facet] = static_cast<std::uint8_t>(state);
+    };
+    for (const VisiblePiece& piece : pieces.pieces)
+        for (const std::uint32_t triangle : {piece.left, piece.right})
+            if (triangle != no_triangle)
+                add_state(view.triangles[triangle].source, goes_on(triangle, piece));
+    for (const auto& [a, b] : pieces.penetrating)
+        for (const std::uint32_t triangle : {a, b})
+            add_state(view.triangles[triangle].source, true);
+}
+
+LightViews light_views(
+    const Scene& scene,
+    const Facets& facets,
+    Vec3 position,
+    const Progress& progress,
+    const CancelFlag* cancel) {
+    LightViews result = {LitFacets(scene, facets), {}, 0};
+    std::vector<std::uint32_t> numbers(facets.triangles.size());
+    std::iota(numbers.begin(), numbers.end(), 0U);
+    const std::vector<Camera> cameras = cameras_of(facets, position);
+    for (std::size_t i = 0; i < cameras.size(); ++i) {
+        LightView view;
+        view.screen = screen_scene(facets, CameraMap(cameras[i]), numbers);
+        if (view.screen.triangles.empty())
+            continue;
+        result.cut_nearness = std::max(result.cut_nearness, view.screen.cut_nearness);
+        view.transparent.vertices = view.screen.vertices;
+        std::vector<ScreenTriangle>& triangles = view.screen.triangles;
+        const auto transparent =
+            std::stable_partition(triangles.begin(), triangles.end(), [&](const auto& triangle) {
+                return result.lit.is_opaque(triangle.source);
+            });
+        view.transparent.triangles.assign(transparent, triangles.end());
+        triangles.erase(transparent, triangles.end());
+        if (view.transparent.triangles.empty())
+            view.transparent.vertices = {};
+        sort_by_place(view.screen);
+        result.lit.add(view.screen, progress_part(progress, i, cameras.size()), cancel);
+        view.cells = cells_of(view.screen, cancel);
+        result.views.push_back(std::move(view));
+    }
+    return result;
+}
+
+} // namespace vera

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "vera/base/parallel.h"
+#include "vera/math/vec3.h"
+#include "vera/scene/facets.h"
+#include "vera/scene/scene.h"
+#include "vera/visible/cells.h"
+#include "vera/visible/screen_scene.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace vera {
+
+/// How much of each facet a light sees. What lets light through hides nothing from it.
+class LitFacets {
+public:
+    LitFacets(const Scene& scene, const Facets& facets);
+
+    bool is_opaque(std::size_t facet) const { return (states_[facet] & opaque) != 0; }
+
+    /// Only opaque ones are.
+    bool is_seen(std::size_t facet) const { return (states_[facet] & seen) != 0; }
+
+    bool is_wholly_seen(std::size_t facet) const {
+        return (states_[facet] & (seen | hidden)) == seen;
+    }
+
+    /// Adds what one view of the light, whose sources are the facets, shows.
+    void add(const ScreenScene& view, const Progress& progress, const CancelFlag* cancel);
+
+private:
+    enum State : std::uint8_t { opaque = 1, seen = 2, hidden = 4 };
+
+    std::vector<std::uint8_t> states_; ///< hidden: a part of it is
+};
+
+/// What a light sees in one direction. The sources are the facets.
+struct LightView {
+    ScreenScene screen;      ///< opaque ones
+    ScreenScene transparent; ///< the others
+    Cells cells;             ///< of the opaque ones
+};
+
+struct LightViews {
+    LitFacets lit;
+    std::vector<LightView> views; ///< together of everything
+    double cut_nearness = 0;      ///< the largest of the views'
+};
+
+/// In one view where everything lies before the light, else on the six sides of a cube about it.
+LightViews light_views(
+    const Scene& scene,
+    const Facets& facets,
+    Vec3 position,
+    const Progress& progress = {},
+    const CancelFlag* cancel = nullptr);
+
+} // namespace vera
