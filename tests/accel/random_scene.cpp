@@ -157,7 +157,11 @@ private:
             Item item;
             item.material = below(3) == 0 ? inherited_material
                                           : MaterialId{static_cast<std::uint32_t>(below(3))};
-            add(geometry, item, static_cast<ItemKind>(below(callable > 0 ? 7 : 6)), callable);
+            auto kind = static_cast<ItemKind>(below(callable > 0 ? 7 : 6));
+            if (!settings_.curved
+                && (kind == ItemKind::sphere || kind == ItemKind::rotational_shape))
+                kind = ItemKind::polygon;
+            add(geometry, item, kind, callable);
         }
         return geometry;
     }

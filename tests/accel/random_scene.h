@@ -16,6 +16,7 @@ struct RandomSceneSettings {
     std::size_t subscenes = 3;
     double scale = 1; ///< all lengths are multiplied by it
     bool glass = false;
+    bool curved = true; ///< whether spheres and rotational shapes are among them
 };
 
 /// A scene whose coordinates are drawn from few values, so that its faces share corners, edges and

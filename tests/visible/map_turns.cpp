@@ -17,8 +17,8 @@ std::map<std::uint32_t, int> turns_about(const VisibleMap& map, double x, double
             else if (a.y() > y && b.y() <= y && side < 0)
                 --of_ring;
         }
-        if (of_ring != 0 && (turns[ring.source] += of_ring) == 0)
-            turns.erase(ring.source);
+        if (of_ring != 0 && (turns[ring.region] += of_ring) == 0)
+            turns.erase(ring.region);
     }
     return turns;
 }

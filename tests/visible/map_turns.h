@@ -8,7 +8,7 @@
 
 namespace vera::testing {
 
-/// How often the rings of each source go round the point, in steps of the grid, added up; sources
+/// How often the rings of each region go round the point, in steps of the grid, added up; regions
 /// of which that is 0 are left out.
 std::map<std::uint32_t, int> turns_about(const VisibleMap& map, double x, double y);
 

@@ -55,7 +55,9 @@ void expect_like_brute_force(
             continue;
         }
         ASSERT_EQ(turns.size(), 1U) << what << " at " << x << " " << y;
-        EXPECT_EQ(turns.begin()->first, expected.source) << what << " at " << x << " " << y;
+        const VisibleMap::Region region = map.regions[turns.begin()->first];
+        EXPECT_EQ(region.source, expected.source) << what << " at " << x << " " << y;
+        EXPECT_EQ(region.unlit, expected.unlit) << what << " at " << x << " " << y;
         EXPECT_EQ(turns.begin()->second, 1) << what << " at " << x << " " << y;
     }
 }
@@ -67,6 +69,40 @@ TEST(VisibleMap, ShowsLikeBruteForceWhatLiesInLayersOnFewPoints) {
             seed,
             60,
             "seed " + std::to_string(seed));
+}
+
+/// Adds shadows of three lights on sources of the scene, with corners on the same points, and lets
+/// a fourth light reach some of them nowhere.
+ScreenScene with_shadows(ScreenScene scene, std::uint64_t seed) {
+    std::mt19937_64 random(seed);
+    const std::size_t surfaces = scene.triangles.size();
+    const auto any = [&] { return scene.triangles[random() % surfaces]; };
+    for (std::size_t i = 0; i < 2 * surfaces; ++i)
+        add_triangle(
+            scene,
+            {any().vertices[0], any().vertices[1], any().vertices[2]},
+            any().source,
+            static_cast<std::uint32_t>(random() % 3));
+    // A shadow lies on its source, which here may be anywhere: as near as what is nearest.
+    for (std::size_t i = surfaces; i < scene.triangles.size(); ++i)
+        for (std::uint32_t& vertex : scene.triangles[i].vertices) {
+            scene.vertices.push_back({scene.vertices[vertex].point, depth_size});
+            vertex = static_cast<std::uint32_t>(scene.vertices.size() - 1);
+        }
+    scene.unlit.resize(2000);
+    for (LightSet& unlit : scene.unlit)
+        unlit = random() % 3 == 0 ? 8 : 0;
+    return scene;
+}
+
+TEST(VisibleMap, ShowsLikeBruteForceWhereLightsReach) {
+    for (std::uint64_t seed = 0; seed < 200 && !HasFailure(); ++seed) {
+        ScreenScene scene = with_shadows(
+            layers(seed, 1 + seed % 30, std::int32_t{1} << (1 + seed % 4)), seed);
+        if (seed % 2 == 0)
+            sort_by_place(scene);
+        expect_like_brute_force(scene, seed, 60, "seed " + std::to_string(seed));
+    }
 }
 
 TEST(VisibleMap, ShowsLikeBruteForceWhatIsScattered) {
@@ -218,7 +254,7 @@ TEST(VisibleMap, ShowsLikeBruteForceWhatPenetratesButForAFewSteps) {
                 turns_about(map, 0.5 * static_cast<double>(x), 0.5 * static_cast<double>(y));
             EXPECT_EQ(turns.size(), expected->source == no_source ? 0U : 1U) << "seed " << seed;
             if (!turns.empty()) {
-                EXPECT_EQ(turns.begin()->first, expected->source) << "seed " << seed;
+                EXPECT_EQ(map.regions[turns.begin()->first].source, expected->source) << "seed " << seed;
                 EXPECT_EQ(turns.begin()->second, 1) << "seed " << seed;
             }
         }

@@ -25,6 +25,8 @@ struct Raster {
     ScreenEdges edges;
     Cells cells;
     std::vector<std::uint8_t> is_hidden; ///< edges that lie behind what covers all their cells
+    std::vector<std::uint8_t> is_inner;  ///< edges between two parts of one shadow
+    std::vector<std::uint8_t> is_near_change; ///< of edges; empty: all are
 
     FrontFace face(std::uint32_t triangle) const {
         return {corners_of(scene, scene.triangles[triangle]), slopes[triangle]};
@@ -161,10 +163,11 @@ void EdgeSweep::add_beside(
     last = clamped(last);
     if (order(first, last) >= 0)
         return;
+    const std::uint32_t edge = raster_.edges.of_triangle[triangle][side];
     covers_.push_back(
         {triangle,
          is_left ? left_side : right_side,
-         raster_.edges.of_triangle[triangle][side],
+         raster_.is_inner[edge] != 0 ? no_edge : edge,
          first,
          last});
 }
@@ -315,7 +318,7 @@ bool EdgeSweep::speaks_here(std::uint32_t edge, const Cover* left, const Cover* 
 }
 
 void EdgeSweep::follow(std::uint32_t edge, VisiblePieces& result) {
-    if (raster_.is_hidden[edge] != 0)
+    if (raster_.is_hidden[edge] != 0 || raster_.is_inner[edge] != 0)
         return;
     gather(edge);
     result_ = &result;
@@ -345,6 +348,7 @@ void EdgeSweep::follow(std::uint32_t edge, VisiblePieces& result) {
                  point_at(begin_, end_, last),
                  begin_,
                  end_,
+                 raster_.edges.edges[edge],
                  open.left.triangle,
                  open.right.triangle,
                  open.left.unlit,
@@ -397,8 +401,45 @@ std::vector<double> edge_margins(const Raster& raster) {
     return margins;
 }
 
+/// The edges that have nothing but two parts of one shadow, one on each side: beside them the same
+/// is seen.
+std::vector<std::uint8_t> inner_edges(const ScreenScene& scene, const ScreenEdges& edges) {
+    enum State : std::uint8_t { none, once, twice, other };
+    std::vector<std::uint8_t> states(edges.edges.size(), none);
+    std::vector<std::uint32_t> shadows(edges.edges.size(), no_triangle);
+    for (std::uint32_t i = 0; i < scene.triangles.size(); ++i)
+        for (std::size_t side = 0; side < 3; ++side) {
+            const ScreenTriangle& triangle = scene.triangles[i];
+            const std::uint32_t edge = edges.of_triangle[i][side];
+            if (!triangle.is_shadow() || states[edge] >= twice) {
+                states[edge] = other;
+            } else if (states[edge] == none) {
+                states[edge] = once;
+                shadows[edge] = i;
+            } else {
+                const ScreenTriangle& before = scene.triangles[shadows[edge]];
+                const bool is_same =
+                    before.source == triangle.source && before.light == triangle.light;
+                // Round to the left, neighbours have their common side in opposite directions.
+                const auto begins = [&](const ScreenTriangle& of, std::uint32_t vertex) {
+                    for (std::size_t j = 0; j < 3; ++j)
+                        if (of.vertices[j] == vertex
+                            && of.vertices[(j + 1) % 3] == edges.edges[edge].end)
+                            return true;
+                    return false;
+                };
+                const std::uint32_t vertex = edges.edges[edge].begin;
+                states[edge] =
+                    is_same && begins(before, vertex) != begins(triangle, vertex) ? twice : other;
+            }
+        }
+    for (std::uint8_t& state : states)
+        state = state == twice ? 1 : 0;
+    return states;
+}
+
 Raster raster_of(const ScreenScene& scene, const CancelFlag* cancel) {
-    Raster raster = {scene, {}, {}, {}, {}, {}, {}};
+    Raster raster = {scene, {}, {}, {}, {}, {}, {}, {}, {}};
     raster.planes.resize(scene.triangles.size());
     raster.slopes.resize(scene.triangles.size());
     raster.corners.resize(scene.triangles.size());
@@ -409,6 +450,7 @@ Raster raster_of(const ScreenScene& scene, const CancelFlag* cancel) {
         raster.corners[i] = {corners[0].point, corners[1].point, corners[2].point};
     }
     raster.edges = screen_edges(scene);
+    raster.is_inner = inner_edges(scene, raster.edges);
     raster.cells = cells_of(scene, raster.planes, raster.slopes, cancel);
     const std::vector<double> margins = edge_margins(raster);
     raster.is_hidden.resize(raster.edges.edges.size());
@@ -419,38 +461,100 @@ Raster raster_of(const ScreenScene& scene, const CancelFlag* cancel) {
     return raster;
 }
 
-} // namespace
-
-VisiblePieces
-cell_raster(const ScreenScene& scene, const Progress& progress, const CancelFlag* cancel) {
-    constexpr std::size_t part = 4096; // edges
-    const Raster raster = raster_of(scene, cancel);
-    const std::size_t count = raster.edges.edges.size();
-    std::vector<VisiblePieces> parts((count + part - 1) / part);
-    std::mutex mutex;
-    std::vector<std::unique_ptr<EdgeSweep>> sweeps;
-    std::size_t done = 0;
-    parallel_ranges(parts.size(), 1, [&](std::size_t first, std::size_t last) {
-        std::unique_ptr<EdgeSweep> sweep;
-        {
-            const std::lock_guard lock(mutex);
-            if (!sweeps.empty()) {
-                sweep = std::move(sweeps.back());
-                sweeps.pop_back();
-            }
-        }
-        if (!sweep)
-            sweep = std::make_unique<EdgeSweep>(raster);
+/// Which edges lie in a cell that what was changed touches, or did.
+std::vector<std::uint8_t> edges_near(const SceneChange& change, const Raster& raster) {
+    std::vector<std::uint8_t> is_changed(raster.cells.blocked.size());
+    const auto mark = [&](const std::array<ScreenVertex, 3>& corners) {
+        for_each_cell_of(raster.cells, corners, [&](std::size_t cell) { is_changed[cell] = 1; });
+    };
+    for (const std::uint32_t triangle : change.triangles)
+        mark(corners_of(raster.scene, raster.scene.triangles[triangle]));
+    for (const std::array<ScreenVertex, 3>& corners : change.places)
+        mark(corners);
+    std::vector<std::uint8_t> near(raster.edges.edges.size());
+    parallel_ranges(near.size(), 4096, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
-            const std::size_t end = std::min(count, (i + 1) * part);
-            for (std::size_t edge = i * part; edge < end; ++edge) {
-                if (cancel != nullptr && edge % 16 == 0)
-                    cancel->throw_if_raised();
-                sweep->follow(static_cast<std::uint32_t>(edge), parts[i]);
-            }
+            const auto point = [&](std::uint32_t vertex) {
+                return raster.scene.vertices[vertex].point;
+            };
+            const auto& [begin, end] = raster.edges.edges[i];
+            const bool is_far =
+                for_each_cell_along(raster.cells, point(begin), point(end), [&](std::size_t cell) {
+                    return is_changed[cell] == 0;
+                });
+            near[i] = is_far ? 0 : 1;
         }
+    });
+    return near;
+}
+
+/// Lends one EdgeSweep to each thread that works.
+class EdgeSweeps {
+public:
+    explicit EdgeSweeps(const Raster& raster)
+        : raster_(raster) {}
+
+    std::unique_ptr<EdgeSweep> take() {
+        const std::lock_guard lock(mutex_);
+        if (idle_.empty())
+            return std::make_unique<EdgeSweep>(raster_);
+        std::unique_ptr<EdgeSweep> sweep = std::move(idle_.back());
+        idle_.pop_back();
+        return sweep;
+    }
+
+    void give_back(std::unique_ptr<EdgeSweep> sweep) {
+        const std::lock_guard lock(mutex_);
+        idle_.push_back(std::move(sweep));
+    }
+
+private:
+    const Raster& raster_;
+    std::mutex mutex_;
+    std::vector<std::unique_ptr<EdgeSweep>> idle_;
+};
+
+/// Of the pieces before, those of edges from this one on.
+auto first_piece_of(const std::vector<VisiblePiece>& before, ScreenEdges::Edge edge) {
+    return std::lower_bound(
+        before.begin(),
+        before.end(),
+        edge,
+        [](const VisiblePiece& piece, const ScreenEdges::Edge& value) { return piece.edge < value; });
+}
+
+/// Follows the edges that are near what was changed, or all, and keeps the pieces of the others.
+VisiblePieces follow_edges(
+    const Raster& raster,
+    const std::vector<VisiblePiece>& before,
+    const Progress& progress,
+    const CancelFlag* cancel) {
+    constexpr std::size_t part = 4096; // edges
+    const std::vector<ScreenEdges::Edge>& edges = raster.edges.edges;
+    std::vector<VisiblePieces> parts((edges.size() + part - 1) / part);
+    EdgeSweeps sweeps(raster);
+    std::mutex mutex;
+    std::size_t done = 0;
+    const auto follow_part = [&](std::size_t number, EdgeSweep& sweep) {
+        const std::size_t end = std::min(edges.size(), (number + 1) * part);
+        auto kept = first_piece_of(before, edges[number * part]);
+        for (std::size_t i = number * part; i < end; ++i) {
+            if (cancel != nullptr && i % 16 == 0)
+                cancel->throw_if_raised();
+            const bool is_followed = raster.is_near_change.empty() || raster.is_near_change[i] != 0;
+            if (is_followed)
+                sweep.follow(static_cast<std::uint32_t>(i), parts[number]);
+            for (; kept != before.end() && kept->edge <= edges[i]; ++kept)
+                if (!is_followed && kept->edge == edges[i])
+                    parts[number].pieces.push_back(*kept);
+        }
+    };
+    parallel_ranges(parts.size(), 1, [&](std::size_t first, std::size_t last) {
+        std::unique_ptr<EdgeSweep> sweep = sweeps.take();
+        for (std::size_t i = first; i < last; ++i)
+            follow_part(i, *sweep);
+        sweeps.give_back(std::move(sweep));
         const std::lock_guard lock(mutex);
-        sweeps.push_back(std::move(sweep));
         done += last - first;
         if (progress)
             progress(static_cast<double>(done) / static_cast<double>(parts.size()));
@@ -461,15 +565,52 @@ cell_raster(const ScreenScene& scene, const Progress& progress, const CancelFlag
     for (const VisiblePieces& of_part : parts)
         pieces += of_part.pieces.size();
     result.pieces.reserve(pieces);
-    for (VisiblePieces& of_part : parts) {
+    for (const VisiblePieces& of_part : parts) {
         result.pieces.insert(result.pieces.end(), of_part.pieces.begin(), of_part.pieces.end());
         result.penetrating.insert(
             result.penetrating.end(), of_part.penetrating.begin(), of_part.penetrating.end());
     }
-    std::sort(result.penetrating.begin(), result.penetrating.end());
-    result.penetrating.erase(
-        std::unique(result.penetrating.begin(), result.penetrating.end()),
-        result.penetrating.end());
+    return result;
+}
+
+void sort_pairs(std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs) {
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+}
+
+} // namespace
+
+VisiblePieces
+cell_raster(const ScreenScene& scene, const Progress& progress, const CancelFlag* cancel) {
+    VisiblePieces result = follow_edges(raster_of(scene, cancel), {}, progress, cancel);
+    sort_pairs(result.penetrating);
+    return result;
+}
+
+VisiblePieces cell_raster_after(
+    const SceneChange& change,
+    VisiblePieces before,
+    const ScreenScene& scene,
+    const Progress& progress,
+    const CancelFlag* cancel) {
+    Raster raster = raster_of(scene, cancel);
+    raster.is_near_change = edges_near(change, raster);
+    // Where no shadow is near, there is none.
+    const auto unlit = [&](std::uint32_t triangle) {
+        return triangle == no_triangle ? 0 : scene.unlit_of(scene.triangles[triangle].source);
+    };
+    std::vector<std::uint8_t> is_changed(scene.triangles.size());
+    for (const std::uint32_t triangle : change.triangles)
+        is_changed[triangle] = 1;
+    for (VisiblePiece& piece : before.pieces) {
+        piece.left_unlit = unlit(piece.left);
+        piece.right_unlit = unlit(piece.right);
+    }
+    VisiblePieces result = follow_edges(raster, before.pieces, progress, cancel);
+    for (const auto& [a, b] : before.penetrating)
+        if (is_changed[a] == 0 && is_changed[b] == 0)
+            result.penetrating.emplace_back(a, b);
+    sort_pairs(result.penetrating);
     return result;
 }
 

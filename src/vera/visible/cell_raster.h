@@ -3,8 +3,10 @@
 
 #include "vera/base/parallel.h"
 #include "vera/exact/screen_point.h"
+#include "vera/visible/edges.h"
 #include "vera/visible/screen_scene.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -22,6 +24,7 @@ struct VisiblePiece {
     RationalPoint to;
     ScreenPoint edge_begin; ///< of the whole edge, which runs the same way
     ScreenPoint edge_end;
+    ScreenEdges::Edge edge;
     std::uint32_t left = no_triangle; ///< which are seen beside it
     std::uint32_t right = no_triangle;
     LightSet left_unlit = 0; ///< the lights that do not reach them there
@@ -30,7 +33,7 @@ struct VisiblePiece {
 
 /// What is seen of a scene: all pieces of edges that part what is seen, each once.
 struct VisiblePieces {
-    std::vector<VisiblePiece> pieces;
+    std::vector<VisiblePiece> pieces; ///< by their edges' vertices
     /// Triangles that pass through each other where both are seen, in ascending order, each pair
     /// once. Where there are any, the pieces need not close to outlines: see cut_penetrations().
     std::vector<std::pair<std::uint32_t, std::uint32_t>> penetrating;
@@ -42,5 +45,20 @@ struct VisiblePieces {
 /// same pieces in the same order for any number of threads.
 VisiblePieces cell_raster(
     const ScreenScene& scene, const Progress& progress = {}, const CancelFlag* cancel = nullptr);
+
+/// What became different in a scene, whose other triangles and whose vertices kept their numbers.
+struct SceneChange {
+    std::vector<std::uint32_t> triangles; ///< that are new, or other ones than before
+    std::vector<std::array<ScreenVertex, 3>> places; ///< where the others were that are no more
+};
+
+/// As cell_raster() of the changed scene, but follows only the edges near what was changed.
+/// `before` are the pieces of the scene before; whichever lights reached a source nowhere then.
+VisiblePieces cell_raster_after(
+    const SceneChange& change,
+    VisiblePieces before,
+    const ScreenScene& scene,
+    const Progress& progress = {},
+    const CancelFlag* cancel = nullptr);
 
 } // namespace vera

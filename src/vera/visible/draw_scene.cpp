@@ -244,11 +244,23 @@ DrawnScene draw_scene(
     const DrawnFaces faces = drawn_faces(
         scene, all, settings.style == DrawingStyle::ids ? FaceUnit::primitive : FaceUnit::plane);
     ScreenScene screen = screen_scene(all, camera_map, faces.of_facet);
-    const bool has_shadows = picture.shadows && settings.style != DrawingStyle::ids;
-    if (has_shadows)
-        add_shadows({scene, all, faces, camera, camera_map}, screen, progress_part(progress, 0, 2), cancel);
     sort_by_place(screen);
-    const WholePieces whole = whole_pieces(screen, has_shadows ? progress_part(progress, 1, 2) : progress, cancel);
+    const bool has_shadows = picture.shadows && settings.style != DrawingStyle::ids;
+    const std::size_t steps = has_shadows ? 3 : 1;
+    WholePieces whole = whole_pieces(screen, progress_part(progress, 0, steps), cancel);
+    if (has_shadows) {
+        SceneChange change;
+        const std::size_t surfaces = screen.triangles.size();
+        add_shadows(
+            {scene, all, faces, camera, camera_map, whole.pieces},
+            screen,
+            progress_part(progress, 1, steps),
+            cancel);
+        for (std::size_t i = surfaces; i < screen.triangles.size(); ++i)
+            change.triangles.push_back(static_cast<std::uint32_t>(i));
+        whole.pieces = cell_raster_after(
+            change, std::move(whole.pieces), screen, progress_part(progress, 2, steps), cancel);
+    }
     const VisibleMap map = visible_map(screen, whole.pieces);
 
     const Painted painted = {scene, camera, picture, settings, all, faces, map};

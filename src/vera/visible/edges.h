@@ -4,6 +4,7 @@
 #include "vera/visible/screen_scene.h"
 
 #include <array>
+#include <compare>
 #include <cstdint>
 #include <vector>
 
@@ -14,9 +15,11 @@ struct ScreenEdges {
     struct Edge {
         std::uint32_t begin = 0; ///< vertices, the smaller number first
         std::uint32_t end = 0;
+
+        friend auto operator<=>(const Edge&, const Edge&) = default;
     };
 
-    std::vector<Edge> edges;
+    std::vector<Edge> edges; ///< in ascending order
     /// Of each triangle, the edge from its corner i to the one that follows.
     std::vector<std::array<std::uint32_t, 3>> of_triangle;
 };

@@ -80,8 +80,12 @@ private:
     std::vector<std::uint32_t> cuts_; ///< the vertex on each edge
 };
 
-/// Adds the parts of a triangle whose sides have these new corners.
-void add_parts(ScreenScene& scene, const ScreenTriangle& triangle, const SideCuts& cuts) {
+/// Puts the parts of the triangle whose sides have these new corners in its place, and those for
+/// which there is none at the end.
+void replace_by_parts(
+    ScreenScene& scene, std::uint32_t number, const SideCuts& cuts, SceneChange& change) {
+    const ScreenTriangle triangle = scene.triangles[number];
+    const std::size_t before = scene.triangles.size();
     const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
         add_triangle(scene, {a, b, c}, triangle.source, triangle.light);
     };
@@ -101,25 +105,36 @@ void add_parts(ScreenScene& scene, const ScreenTriangle& triangle, const SideCut
     const std::uint32_t ca = cuts[(first + 2) % 3];
     switch (count) {
     case 0:
-        return add(a, b, c);
+        return;
     case 1:
         add(a, ab, c);
-        return add(ab, b, c);
+        add(ab, b, c);
+        break;
     case 2:
         add(ab, b, bc);
         add(a, ab, bc);
-        return add(a, bc, c);
+        add(a, bc, c);
+        break;
     default:
         add(a, ab, ca);
         add(ab, b, bc);
         add(bc, c, ca);
-        return add(ab, bc, ca);
+        add(ab, bc, ca);
     }
+    // Of a triangle of a step or two, no part may have an area: it stays.
+    if (scene.triangles.size() == before)
+        return;
+    change.places.push_back(corners_of(scene, triangle));
+    scene.triangles[number] = scene.triangles.back();
+    scene.triangles.pop_back();
+    change.triangles.push_back(number);
+    for (std::size_t i = before; i < scene.triangles.size(); ++i)
+        change.triangles.push_back(static_cast<std::uint32_t>(i));
 }
 
 } // namespace
 
-void cut_penetrations(
+SceneChange cut_penetrations(
     ScreenScene& scene, std::span<const std::pair<std::uint32_t, std::uint32_t>> penetrating) {
     const ScreenEdges edges = screen_edges(scene);
     EdgeCuts cuts(scene, edges);
@@ -130,11 +145,11 @@ void cut_penetrations(
         cuts.cut(a, slope_of(b));
         cuts.cut(b, slope_of(a));
     }
-    std::vector<ScreenTriangle> triangles;
-    triangles.swap(scene.triangles);
-    scene.triangles.reserve(triangles.size() + 4 * penetrating.size());
-    for (std::uint32_t i = 0; i < triangles.size(); ++i)
-        add_parts(scene, triangles[i], cuts.of_triangle(i));
+    SceneChange change;
+    const std::size_t count = scene.triangles.size();
+    for (std::uint32_t i = 0; i < count; ++i)
+        replace_by_parts(scene, i, cuts.of_triangle(i), change);
+    return change;
 }
 
 WholePieces whole_pieces(ScreenScene& scene, const Progress& progress, const CancelFlag* cancel) {
@@ -142,13 +157,14 @@ WholePieces whole_pieces(ScreenScene& scene, const Progress& progress, const Can
     // Where each passes through each, cutting all would take the square of their number.
     const std::size_t most_triangles = 16 * scene.triangles.size() + 100'000;
     WholePieces result;
+    result.pieces = cell_raster(scene, progress, cancel);
     while (true) {
-        result.pieces = cell_raster(scene, progress, cancel);
         result.left = result.pieces.penetrating.size();
         if (result.left == 0 || result.rounds == most_rounds
             || scene.triangles.size() > most_triangles)
             return result;
-        cut_penetrations(scene, result.pieces.penetrating);
+        const SceneChange change = cut_penetrations(scene, result.pieces.penetrating);
+        result.pieces = cell_raster_after(change, std::move(result.pieces), scene, {}, cancel);
         ++result.rounds;
     }
 }

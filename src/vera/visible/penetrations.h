@@ -13,8 +13,8 @@ namespace vera {
 
 /// Cuts triangles that pass through each other where they do, to within a step of the grid, and
 /// those beside them that share a side which was cut. Of a triangle with several partners only some
-/// cuts are made: ask again. Triangle numbers change.
-void cut_penetrations(
+/// cuts are made: ask again.
+SceneChange cut_penetrations(
     ScreenScene& scene, std::span<const std::pair<std::uint32_t, std::uint32_t>> penetrating);
 
 /// What is seen of the scene, and `left`, how many pairs still pass through each other: 0 but for

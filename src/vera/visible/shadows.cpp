@@ -28,12 +28,12 @@ struct Receiver {
     ScreenPoint low = {screen_size, screen_size};
     ScreenPoint high = {0, 0};
     std::uint32_t largest = no_triangle; ///< of its triangles on the screen
-
-    bool is_on_screen() const { return largest != no_triangle; }
+    bool is_seen = false;
 };
 
 /// Of each face.
-std::vector<Receiver> receivers_of(const ScreenScene& screen, std::size_t faces) {
+std::vector<Receiver>
+receivers_of(const ScreenScene& screen, const VisiblePieces& seen, std::size_t faces) {
     // Beyond its sides, so that no crumb of the face is left lit between them and the shadow.
     constexpr std::int32_t around = 8;
     std::vector<Receiver> receivers(faces);
@@ -58,6 +58,10 @@ std::vector<Receiver> receivers_of(const ScreenScene& screen, std::size_t faces)
             receiver.largest = i;
         }
     }
+    for (const VisiblePiece& piece : seen.pieces)
+        for (const std::uint32_t triangle : {piece.left, piece.right})
+            if (triangle != no_triangle)
+                receivers[screen.triangles[triangle].source].is_seen = true;
     return receivers;
 }
 
@@ -136,17 +140,13 @@ void add_throws(
     std::uint32_t partly_lit,
     std::vector<Throw>& throws) {
     const std::size_t first = throws.size();
-    const auto add_of_cell = [&](std::size_t cell) {
+    for_each_cell_of(view.cells, corners, [&](std::size_t cell) {
         for (const std::uint32_t i : view.cells.triangles_of(cell)) {
             const ScreenTriangle& other = view.screen.triangles[i];
             if (other.source != facet && lit.is_seen(other.source)
                 && overlap(corners, corners_of(view.screen, other)))
                 throws.push_back({partly_lit, other.source});
         }
-    };
-    for_each_row_of(view.cells, corners, [&](std::int32_t row, const RowOfCells& found) {
-        for (std::int32_t j = found.touched.first; j <= found.touched.last; ++j)
-            add_of_cell(view.cells.number(j, row));
     });
     const auto begin = throws.begin() + static_cast<std::ptrdiff_t>(first);
     std::sort(begin, throws.end());
@@ -195,7 +195,7 @@ private:
 /// Tells which faces the light reaches none of, and which a part of.
 void LightShadows::find_partly_lit(const LitFacets& lit) {
     for (std::uint32_t face = 0; face < receivers_.size(); ++face) {
-        if (!receivers_[face].is_on_screen())
+        if (!receivers_[face].is_seen)
             continue;
         FacePlane plane = plane_of(shadowed_, face, end_facet(face));
         double light_height = plane.height(position_);
@@ -366,7 +366,7 @@ ShadowCounts add_shadows(
     const CancelFlag* cancel) {
     ShadowCounts counts;
     const std::size_t faces = shadowed.faces.first_facet.size();
-    const std::vector<Receiver> receivers = receivers_of(screen, faces);
+    const std::vector<Receiver> receivers = receivers_of(screen, shadowed.seen, faces);
     screen.unlit.assign(faces, 0);
     const std::size_t lights =
         std::min<std::size_t>(shadowed.scene.lights.size(), most_lights_of_a_set);

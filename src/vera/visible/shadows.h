@@ -5,6 +5,7 @@
 #include "vera/scene/camera.h"
 #include "vera/scene/facets.h"
 #include "vera/scene/scene.h"
+#include "vera/visible/cell_raster.h"
 #include "vera/visible/drawn_faces.h"
 #include "vera/visible/projection.h"
 #include "vera/visible/screen_scene.h"
@@ -20,6 +21,7 @@ struct ShadowedScene {
     const DrawnFaces& faces; ///< plane ones, FaceUnit::plane
     const Camera& camera;
     const CameraMap& map;
+    const VisiblePieces& seen; ///< of the screen without shadows: these fall on what is seen alone
 };
 
 /// How much there was to do.
