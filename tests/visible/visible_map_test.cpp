@@ -97,8 +97,8 @@ ScreenScene with_shadows(ScreenScene scene, std::uint64_t seed) {
 
 TEST(VisibleMap, ShowsLikeBruteForceWhereLightsReach) {
     for (std::uint64_t seed = 0; seed < 200 && !HasFailure(); ++seed) {
-        ScreenScene scene = with_shadows(
-            layers(seed, 1 + seed % 30, std::int32_t{1} << (1 + seed % 4)), seed);
+        ScreenScene scene =
+            with_shadows(layers(seed, 1 + seed % 30, std::int32_t{1} << (1 + seed % 4)), seed);
         if (seed % 2 == 0)
             sort_by_place(scene);
         expect_like_brute_force(scene, seed, 60, "seed " + std::to_string(seed));
@@ -254,7 +254,8 @@ TEST(VisibleMap, ShowsLikeBruteForceWhatPenetratesButForAFewSteps) {
                 turns_about(map, 0.5 * static_cast<double>(x), 0.5 * static_cast<double>(y));
             EXPECT_EQ(turns.size(), expected->source == no_source ? 0U : 1U) << "seed " << seed;
             if (!turns.empty()) {
-                EXPECT_EQ(map.regions[turns.begin()->first].source, expected->source) << "seed " << seed;
+                EXPECT_EQ(map.regions[turns.begin()->first].source, expected->source)
+                    << "seed " << seed;
                 EXPECT_EQ(turns.begin()->second, 1) << "seed " << seed;
             }
         }

@@ -24,8 +24,8 @@ struct Raster {
     std::vector<std::array<ScreenPoint, 3>> corners; ///< of the triangles, side by side
     ScreenEdges edges;
     Cells cells;
-    std::vector<std::uint8_t> is_hidden; ///< edges that lie behind what covers all their cells
-    std::vector<std::uint8_t> is_inner;  ///< edges between two parts of one shadow
+    std::vector<std::uint8_t> is_hidden;      ///< edges that lie behind what covers all their cells
+    std::vector<std::uint8_t> is_inner;       ///< edges between two parts of one shadow
     std::vector<std::uint8_t> is_near_change; ///< of edges; empty: all are
 
     FrontFace face(std::uint32_t triangle) const {
@@ -405,6 +405,7 @@ std::vector<double> edge_margins(const Raster& raster) {
 /// is seen.
 std::vector<std::uint8_t> inner_edges(const ScreenScene& scene, const ScreenEdges& edges) {
     enum State : std::uint8_t { none, once, twice, other };
+
     std::vector<std::uint8_t> states(edges.edges.size(), none);
     std::vector<std::uint32_t> shadows(edges.edges.size(), no_triangle);
     for (std::uint32_t i = 0; i < scene.triangles.size(); ++i)
@@ -520,7 +521,9 @@ auto first_piece_of(const std::vector<VisiblePiece>& before, ScreenEdges::Edge e
         before.begin(),
         before.end(),
         edge,
-        [](const VisiblePiece& piece, const ScreenEdges::Edge& value) { return piece.edge < value; });
+        [](const VisiblePiece& piece, const ScreenEdges::Edge& value) {
+            return piece.edge < value;
+        });
 }
 
 /// Follows the edges that are near what was changed, or all, and keeps the pieces of the others.

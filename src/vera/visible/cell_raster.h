@@ -48,7 +48,7 @@ VisiblePieces cell_raster(
 
 /// What became different in a scene, whose other triangles and whose vertices kept their numbers.
 struct SceneChange {
-    std::vector<std::uint32_t> triangles; ///< that are new, or other ones than before
+    std::vector<std::uint32_t> triangles;            ///< that are new, or other ones than before
     std::vector<std::array<ScreenVertex, 3>> places; ///< where the others were that are no more
 };
 

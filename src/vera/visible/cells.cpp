@@ -53,18 +53,14 @@ void block_cells(
         const auto corners = corners_of(scene, scene.triangles[i]);
         if (scene.triangles[i].is_shadow() || !may_cover_a_cell(corners, cells))
             continue;
-        for_each_row_of(
-            cells,
-            corners,
-            [&](std::int32_t row, const RowOfCells& found) {
-                for (std::int32_t j = found.covered.first; j <= found.covered.last; ++j) {
-                    double& blocked = cells.blocked[cells.number(j, row)];
-                    const ScreenPoint lower = {j << cells.shift, row << cells.shift};
-                    blocked = std::max(
-                        blocked,
-                        least_nearness(cells, planes[i], lower) - hidden_margin(slopes[i]));
-                }
-            });
+        for_each_row_of(cells, corners, [&](std::int32_t row, const RowOfCells& found) {
+            for (std::int32_t j = found.covered.first; j <= found.covered.last; ++j) {
+                double& blocked = cells.blocked[cells.number(j, row)];
+                const ScreenPoint lower = {j << cells.shift, row << cells.shift};
+                blocked = std::max(
+                    blocked, least_nearness(cells, planes[i], lower) - hidden_margin(slopes[i]));
+            }
+        });
     }
 }
 

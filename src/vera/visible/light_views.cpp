@@ -98,9 +98,10 @@ void LitFacets::add(const ScreenScene& view, const Progress& progress, const Can
         }
         return true;
     };
+    std::vector<std::uint8_t> here(states_.size()); // of this view
     const auto add_state = [&](std::uint32_t facet, bool is_partly_hidden) {
-        const int state = states_[facet] | seen | (is_partly_hidden ? hidden : 0);
-        states_[facet] = static_cast<std::uint8_t>(state);
+        const int state = here[facet] | seen | (is_partly_hidden ? hidden : 0);
+        here[facet] = static_cast<std::uint8_t>(state);
     };
     for (const VisiblePiece& piece : pieces.pieces)
         for (const std::uint32_t triangle : {piece.left, piece.right})
@@ -109,6 +110,11 @@ void LitFacets::add(const ScreenScene& view, const Progress& progress, const Can
     for (const auto& [a, b] : pieces.penetrating)
         for (const std::uint32_t triangle : {a, b})
             add_state(view.triangles[triangle].source, true);
+    for (const ScreenTriangle& triangle : view.triangles) {
+        const int state = here[triangle.source];
+        states_[triangle.source] = static_cast<std::uint8_t>(
+            states_[triangle.source] | (state == 0 ? int{hidden} : state));
+    }
 }
 
 LightViews light_views(

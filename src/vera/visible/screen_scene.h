@@ -24,8 +24,8 @@ constexpr std::uint32_t no_light = ~std::uint32_t{0};
 struct ScreenTriangle {
     std::array<std::uint32_t, 3> vertices = {}; ///< in ScreenScene::vertices
     std::uint32_t source = 0; ///< of what it is a part: of coincident ones the smaller is in front
-    /// Of a shadow, the light that does not reach its source there. A shadow lies on its source, may
-    /// reach beyond it, where it means nothing, and hides nothing.
+    /// Of a shadow, the light that does not reach its source there. A shadow lies on its source,
+    /// may reach beyond it, where it means nothing, and hides nothing.
     std::uint32_t light = no_light;
 
     bool is_shadow() const { return light != no_light; }

@@ -51,8 +51,7 @@ receivers_of(const ScreenScene& screen, const VisiblePieces& seen, std::size_t f
                 std::min(std::max(receiver.high.x, p.x + around), screen_size),
                 std::min(std::max(receiver.high.y, p.y + around), screen_size)};
         }
-        const std::int64_t area =
-            orientation(corners[0].point, corners[1].point, corners[2].point);
+        const std::int64_t area = orientation(corners[0].point, corners[1].point, corners[2].point);
         if (area > areas[face]) {
             areas[face] = area;
             receiver.largest = i;
@@ -175,12 +174,14 @@ private:
     void find_partly_lit(const LitFacets& lit);
     std::vector<Throw> throws(const LightViews& views) const;
     std::vector<ImagePoint> shadow(const Throw& thrown) const;
-    void add_to_screen(const Throw& thrown, std::span<const ImagePoint> shadow, VertexNumbers& numbers);
+    void
+    add_to_screen(const Throw& thrown, std::span<const ImagePoint> shadow, VertexNumbers& numbers);
 
     std::uint32_t end_facet(std::uint32_t face) const {
         const auto& first = shadowed_.faces.first_facet;
-        return face + 1 < first.size() ? first[face + 1]
-                                       : static_cast<std::uint32_t>(shadowed_.facets.triangles.size());
+        return face + 1 < first.size()
+            ? first[face + 1]
+            : static_cast<std::uint32_t>(shadowed_.facets.triangles.size());
     }
 
     const ShadowedScene& shadowed_;
@@ -317,8 +318,7 @@ std::vector<ImagePoint> LightShadows::shadow(const Throw& thrown) const {
 void LightShadows::add_to_screen(
     const Throw& thrown, std::span<const ImagePoint> shadow, VertexNumbers& numbers) {
     const std::uint32_t face = partly_lit_[thrown.partly_lit].face;
-    const auto corners =
-        corners_of(screen_, screen_.triangles[receivers_[face].largest]);
+    const auto corners = corners_of(screen_, screen_.triangles[receivers_[face].largest]);
     const NearnessSlope slope = nearness_slope(depth_plane(corners));
     const auto rounded = [](double value) { return std::floor(value + 0.5); };
     std::vector<std::uint32_t> vertices;
@@ -339,8 +339,8 @@ void LightShadows::add_to_screen(
 }
 
 void LightShadows::add(const Progress& progress, ShadowCounts& counts) {
-    const LightViews views = light_views(
-        shadowed_.scene, shadowed_.facets, position_, progress, cancel_);
+    const LightViews views =
+        light_views(shadowed_.scene, shadowed_.facets, position_, progress, cancel_);
     counts.cut_nearness = std::max(counts.cut_nearness, views.cut_nearness);
     find_partly_lit(views.lit);
     counts.partly_lit += partly_lit_.size();

@@ -28,14 +28,14 @@ struct ShadowedScene {
 struct ShadowCounts {
     std::size_t partly_lit = 0; ///< pairs of a light and a face of which it reaches a part
     std::size_t shadows = 0;    ///< triangles that were added
-    double cut_nearness = 0;    ///< what is so much nearer to a light than the farthest that it sees
-                                ///< throws no shadow; or 0
+    double cut_nearness = 0; ///< what is so much nearer to a light than the farthest that it sees
+                             ///< throws no shadow; or 0
 };
 
 /// Adds the shadows that the faces throw on each other to the screen, whose sources are the faces:
 /// what a light sees of the scene tells which faces it reaches wholly, partly and not at all (3.4;
-/// Atherton, Weiler and Greenberg, Polygon shadow generation, 1978). Where it is partly, the shadows
-/// are those of the facets that the light sees before the face, carried to its plane by one
+/// Atherton, Weiler and Greenberg, Polygon shadow generation, 1978). Where it is partly, the
+/// shadows are those of the facets that the light sees before the face, carried to its plane by one
 /// projection from corner to grid, so that a corner of a shadow is as exact as one of the scene.
 /// What lets light through throws none. Takes the scene's first most_lights_of_a_set lights.
 ShadowCounts add_shadows(

@@ -227,7 +227,9 @@ Ways ways_of(const ScreenScene& scene, const VisiblePieces& pieces, VisibleMap& 
         for (std::size_t i = 0; i < count; ++i) {
             const VisiblePiece& piece = pieces.pieces[i];
             if (piece.left != no_triangle)
-                visit(2 * i, VisibleMap::Region{scene.triangles[piece.left].source, piece.left_unlit});
+                visit(
+                    2 * i,
+                    VisibleMap::Region{scene.triangles[piece.left].source, piece.left_unlit});
             if (piece.right != no_triangle)
                 visit(
                     2 * i + 1,
@@ -270,7 +272,10 @@ VisibleMap visible_map(const ScreenScene& scene, const VisiblePieces& pieces) {
         if (done[first] != 0 || ways.region[first] == no_region)
             continue;
         VisibleMap::Ring ring = {
-            map.regions[ways.region[first]].source, ways.region[first], map.ring_vertices.size(), 0};
+            map.regions[ways.region[first]].source,
+            ways.region[first],
+            map.ring_vertices.size(),
+            0};
         std::uint32_t way = first;
         do {
             done[way] = 1;
