@@ -92,6 +92,20 @@ void print_notes(const DrawnScene& drawn, const Console& console) {
                 "drawn: the rest would be too coarse",
                 drawn.cut_nearness),
             console);
+    if (drawn.shadows.cut_nearness > 0)
+        print_note(
+            fmt::format(
+                "what is nearer to a light than {:.3g} throws no shadow: the others would be too "
+                "coarse",
+                drawn.shadows.cut_nearness),
+            console);
+    if (drawn.lights_without_shadows > 0)
+        print_note(
+            fmt::format(
+                "shadows are drawn of the first {} lights; the last {} shine through everything",
+                most_lights_of_a_set,
+                drawn.lights_without_shadows),
+            console);
     if (drawn.penetrating > 0)
         print_note(
             fmt::format(
@@ -109,6 +123,8 @@ nlohmann::ordered_json as_json(const Report& report, const DrawnScene& drawn) {
         {"visible_faces", drawn.visible_faces},
         {"cut_rounds", drawn.cut_rounds},
         {"penetrating", drawn.penetrating},
+        {"partly_lit", drawn.shadows.partly_lit},
+        {"shadows", drawn.shadows.shadows},
         {"bytes", report.bytes},
         {"seconds",
          {{"read", report.read_seconds},
@@ -199,7 +215,7 @@ void add_draw_command(CLI::App& app, Console& console) {
         ->add_option(
             "--style",
             request->style,
-            "flat: the colours that the light gives, without shadows and mirrors; ids: each "
+            "flat: the colours that the light gives, with shadows, without mirrors; ids: each "
             "primitive's number as a colour; lines: silhouettes and creases")
         ->type_name("flat|ids|lines")
         ->check(CLI::IsMember({"flat", "ids", "lines"}).description(""))

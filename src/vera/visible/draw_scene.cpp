@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <string>
@@ -245,30 +246,33 @@ DrawnScene draw_scene(
         scene, all, settings.style == DrawingStyle::ids ? FaceUnit::primitive : FaceUnit::plane);
     ScreenScene screen = screen_scene(all, camera_map, faces.of_facet);
     sort_by_place(screen);
+    DrawnScene drawn;
+    drawn.facets = all.triangles.size();
+    drawn.cut_nearness = screen.cut_nearness;
     const bool has_shadows = picture.shadows && settings.style != DrawingStyle::ids;
     const std::size_t steps = has_shadows ? 3 : 1;
     WholePieces whole = whole_pieces(screen, progress_part(progress, 0, steps), cancel);
+    drawn.cut_rounds = static_cast<std::size_t>(whole.rounds - 1);
+    drawn.penetrating = whole.left;
     if (has_shadows) {
-        SceneChange change;
         const std::size_t surfaces = screen.triangles.size();
-        add_shadows(
+        drawn.shadows = add_shadows(
             {scene, all, faces, camera, camera_map, whole.pieces},
             screen,
             progress_part(progress, 1, steps),
             cancel);
-        for (std::size_t i = surfaces; i < screen.triangles.size(); ++i)
-            change.triangles.push_back(static_cast<std::uint32_t>(i));
+        drawn.lights_without_shadows =
+            scene.lights.size() - std::min<std::size_t>(scene.lights.size(), most_lights_of_a_set);
+        SceneChange change;
+        change.triangles.resize(screen.triangles.size() - surfaces);
+        std::iota(
+            change.triangles.begin(), change.triangles.end(), static_cast<std::uint32_t>(surfaces));
         whole.pieces = cell_raster_after(
             change, std::move(whole.pieces), screen, progress_part(progress, 2, steps), cancel);
     }
     const VisibleMap map = visible_map(screen, whole.pieces);
 
     const Painted painted = {scene, camera, picture, settings, all, faces, map};
-    DrawnScene drawn;
-    drawn.facets = all.triangles.size();
-    drawn.cut_rounds = static_cast<std::size_t>(whole.rounds - 1);
-    drawn.penetrating = whole.left;
-    drawn.cut_nearness = screen.cut_nearness;
     drawn.drawing.width = picture.width;
     drawn.drawing.height = picture.height;
     drawn.drawing.background = background(painted);

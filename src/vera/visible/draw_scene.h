@@ -6,6 +6,7 @@
 #include "vera/scene/camera.h"
 #include "vera/scene/picture_settings.h"
 #include "vera/scene/scene.h"
+#include "vera/visible/shadows.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -13,8 +14,8 @@
 namespace vera {
 
 enum class DrawingStyle : std::uint8_t {
-    flat,  ///< each face in the colour that the light gives its middle
-    ids,   ///< each primitive in the colour of its number, from 1 on; 0 is the background
+    flat, ///< each face, and what is in shadow of it, in the colour that the light gives its middle
+    ids,  ///< each primitive in the colour of its number, from 1 on; 0 is the background
     lines, ///< outlines and creases alone
 };
 
@@ -32,11 +33,13 @@ struct DrawnScene {
     std::size_t penetrating = 0; ///< pairs of facets that still do: 0 but in the worst tangles
     double cut_nearness = 0; ///< what is so near the view point was left out, by the distance of
                              ///< the image plane; 0: nothing
+    ShadowCounts shadows;    ///< nothing where none are drawn
+    std::size_t lights_without_shadows = 0; ///< beyond the most that shadows are drawn of
 };
 
-/// A drawing of what the camera sees, every face an outline: as exact as a grid of 2^22 steps
-/// across the picture. Throws InputError where style ids has more than 2^24 - 1 primitives to tell
-/// apart.
+/// A drawing of what the camera sees, every face an outline, and every shadow where the settings
+/// ask for them: as exact as a grid of 2^22 steps across the picture. Throws InputError where style
+/// ids has more than 2^24 - 1 primitives to tell apart.
 DrawnScene draw_scene(
     const Scene& scene,
     const Camera& camera,

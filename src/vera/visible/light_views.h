@@ -47,7 +47,7 @@ struct LightView {
 struct LightViews {
     LitFacets lit;
     std::vector<LightView> views; ///< together of everything
-    double cut_nearness = 0;      ///< the largest of the views'
+    double cut_nearness = 0;      ///< what is so near, in the scene's units, they do not show; or 0
 };
 
 /// In one view where everything lies before the light, else on the six sides of a cube about it.

@@ -28,8 +28,8 @@ struct ShadowedScene {
 struct ShadowCounts {
     std::size_t partly_lit = 0; ///< pairs of a light and a face of which it reaches a part
     std::size_t shadows = 0;    ///< triangles that were added
-    double cut_nearness = 0; ///< what is so much nearer to a light than the farthest that it sees
-                             ///< throws no shadow; or 0
+    double cut_nearness = 0; ///< what is so near a light, in the scene's units, throws no shadow;
+                             ///< 0: everything does
 };
 
 /// Adds the shadows that the faces throw on each other to the screen, whose sources are the faces:
