@@ -446,7 +446,7 @@ Raster raster_of(const ScreenScene& scene, const CancelFlag* cancel) {
     raster.corners.resize(scene.triangles.size());
     for (std::size_t i = 0; i < raster.planes.size(); ++i) {
         const std::array<ScreenVertex, 3> corners = corners_of(scene, scene.triangles[i]);
-        raster.planes[i] = depth_plane(corners);
+        raster.planes[i] = plane_of(scene, scene.triangles[i]);
         raster.slopes[i] = nearness_slope(raster.planes[i]);
         raster.corners[i] = {corners[0].point, corners[1].point, corners[2].point};
     }

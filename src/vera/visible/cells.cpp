@@ -196,7 +196,7 @@ Cells cells_of(const ScreenScene& scene, const CancelFlag* cancel) {
     planes.reserve(scene.triangles.size());
     slopes.reserve(scene.triangles.size());
     for (const ScreenTriangle& triangle : scene.triangles) {
-        planes.push_back(depth_plane(corners_of(scene, triangle)));
+        planes.push_back(plane_of(scene, triangle));
         slopes.push_back(nearness_slope(planes.back()));
     }
     return cells_of(scene, planes, slopes, cancel);

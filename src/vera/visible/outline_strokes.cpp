@@ -40,8 +40,8 @@ bool are_of_one_item(const Scene& scene, std::uint64_t a, std::uint64_t b) {
 bool meet_there(const StrokeSources& sources, const VisiblePiece& piece) {
     std::array<DepthPlane, 2> planes;
     for (std::size_t i = 0; i < 2; ++i)
-        planes[i] = depth_plane(corners_of(
-            sources.screen, sources.screen.triangles[i == 0 ? piece.left : piece.right]));
+        planes[i] = plane_of(
+            sources.screen, sources.screen.triangles[i == 0 ? piece.left : piece.right]);
     for (const RationalPoint& point : {piece.from, piece.to}) {
         const double apart =
             std::abs(planes[0].value(point.x(), point.y()) - planes[1].value(point.x(), point.y()));

@@ -87,7 +87,7 @@ void replace_by_parts(
     const ScreenTriangle triangle = scene.triangles[number];
     const std::size_t before = scene.triangles.size();
     const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-        add_triangle(scene, {a, b, c}, triangle.source, triangle.light);
+        add_part(scene, {a, b, c}, triangle, triangle.light);
     };
     const auto& corners = triangle.vertices;
     std::size_t count = 0;
@@ -139,7 +139,7 @@ SceneChange cut_penetrations(
     const ScreenEdges edges = screen_edges(scene);
     EdgeCuts cuts(scene, edges);
     const auto slope_of = [&](std::uint32_t triangle) {
-        return nearness_slope(depth_plane(corners_of(scene, scene.triangles[triangle])));
+        return nearness_slope(plane_of(scene, scene.triangles[triangle]));
     };
     for (const auto& [a, b] : penetrating) {
         cuts.cut(a, slope_of(b));

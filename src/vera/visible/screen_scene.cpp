@@ -33,6 +33,15 @@ std::array<std::uint32_t, 3> sorted(std::array<std::uint32_t, 3> vertices) {
     return vertices;
 }
 
+/// Turns the corners to the left; false where they have no area.
+bool turn_to_left(const ScreenScene& scene, std::array<std::uint32_t, 3>& vertices) {
+    const auto point = [&](std::size_t i) { return scene.vertices[vertices[i]].point; };
+    const std::int64_t area = orientation(point(0), point(1), point(2));
+    if (area < 0)
+        std::swap(vertices[1], vertices[2]);
+    return area != 0;
+}
+
 } // namespace
 
 void add_triangle(
@@ -40,13 +49,17 @@ void add_triangle(
     std::array<std::uint32_t, 3> vertices,
     std::uint32_t source,
     std::uint32_t light) {
-    const auto point = [&](std::size_t i) { return scene.vertices[vertices[i]].point; };
-    const std::int64_t area = orientation(point(0), point(1), point(2));
-    if (area == 0)
-        return;
-    if (area < 0)
-        std::swap(vertices[1], vertices[2]);
-    scene.triangles.push_back({vertices, source, light});
+    if (turn_to_left(scene, vertices))
+        scene.triangles.push_back({vertices, source, light, vertices});
+}
+
+void add_part(
+    ScreenScene& scene,
+    std::array<std::uint32_t, 3> vertices,
+    const ScreenTriangle& of,
+    std::uint32_t light) {
+    if (turn_to_left(scene, vertices))
+        scene.triangles.push_back({vertices, of.source, light, of.plane});
 }
 
 void sort_by_place(ScreenScene& scene) {
@@ -89,13 +102,14 @@ void sort_by_place(ScreenScene& scene) {
     triangles.reserve(scene.triangles.size());
     for (const auto& [code, i] : order) {
         ScreenTriangle triangle = scene.triangles[i];
-        for (std::uint32_t& vertex : triangle.vertices) {
-            if (numbers[vertex] == unused) {
-                numbers[vertex] = static_cast<std::uint32_t>(vertices.size());
-                vertices.push_back(scene.vertices[vertex]);
+        for (std::array<std::uint32_t, 3>* corners : {&triangle.vertices, &triangle.plane})
+            for (std::uint32_t& vertex : *corners) {
+                if (numbers[vertex] == unused) {
+                    numbers[vertex] = static_cast<std::uint32_t>(vertices.size());
+                    vertices.push_back(scene.vertices[vertex]);
+                }
+                vertex = numbers[vertex];
             }
-            vertex = numbers[vertex];
-        }
         triangles.push_back(triangle);
     }
     scene.vertices = std::move(vertices);

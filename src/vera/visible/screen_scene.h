@@ -27,6 +27,9 @@ struct ScreenTriangle {
     /// Of a shadow, the light that does not reach its source there. A shadow lies on its source,
     /// may reach beyond it, where it means nothing, and hides nothing.
     std::uint32_t light = no_light;
+    /// Vertices that span its plane: those of the triangle that it was cut from, or its own. What
+    /// the grid did to corners of a narrow part would tilt it.
+    std::array<std::uint32_t, 3> plane = {};
 
     bool is_shadow() const { return light != no_light; }
 };
@@ -52,12 +55,26 @@ corners_of(const ScreenScene& scene, const ScreenTriangle& triangle) {
         scene.vertices[triangle.vertices[2]]};
 }
 
-/// Adds a triangle with these corners, turned to the left. One without an area is left out: it is
-/// seen edge-on.
+inline DepthPlane plane_of(const ScreenScene& scene, const ScreenTriangle& triangle) {
+    return depth_plane(
+        {scene.vertices[triangle.plane[0]],
+         scene.vertices[triangle.plane[1]],
+         scene.vertices[triangle.plane[2]]});
+}
+
+/// Adds a triangle with these corners, turned to the left, which spans its own plane. One without
+/// an area is left out: it is seen edge-on.
 void add_triangle(
     ScreenScene& scene,
     std::array<std::uint32_t, 3> vertices,
     std::uint32_t source,
+    std::uint32_t light = no_light);
+
+/// The same of a part of that triangle, or of a shadow on it, which has its plane.
+void add_part(
+    ScreenScene& scene,
+    std::array<std::uint32_t, 3> vertices,
+    const ScreenTriangle& of,
     std::uint32_t light = no_light);
 
 /// Sorts the triangles along a curve that fills the picture (Morton 1966), and the vertices by who

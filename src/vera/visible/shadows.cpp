@@ -318,8 +318,9 @@ std::vector<ImagePoint> LightShadows::shadow(const Throw& thrown) const {
 void LightShadows::add_to_screen(
     const Throw& thrown, std::span<const ImagePoint> shadow, VertexNumbers& numbers) {
     const std::uint32_t face = partly_lit_[thrown.partly_lit].face;
-    const auto corners = corners_of(screen_, screen_.triangles[receivers_[face].largest]);
-    const NearnessSlope slope = nearness_slope(depth_plane(corners));
+    // A copy: triangles are added.
+    const ScreenTriangle on = screen_.triangles[receivers_[face].largest];
+    const NearnessSlope slope = nearness_slope(plane_of(screen_, on));
     const auto rounded = [](double value) { return std::floor(value + 0.5); };
     std::vector<std::uint32_t> vertices;
     for (const ImagePoint& p : shadow) {
@@ -327,15 +328,14 @@ void LightShadows::add_to_screen(
             return;
         const double x = std::clamp(rounded(p.x / p.w * screen_size), 0.0, 1.0 * screen_size);
         const double y = std::clamp(rounded((1 - p.y / p.w) * screen_size), 0.0, 1.0 * screen_size);
-        // Rather too near: a shadow that seems to be nearer than its face is not hidden by less.
-        const double nearness = std::clamp(
-            slope.at({x, y}) + hidden_margin(slope), 0.0, static_cast<double>(depth_size));
+        const double nearness =
+            std::clamp(std::ceil(slope.at({x, y})), 0.0, static_cast<double>(depth_size));
         vertices.push_back(numbers.number(
             {{static_cast<std::int32_t>(x), static_cast<std::int32_t>(y)},
              static_cast<std::int64_t>(nearness)}));
     }
     for (std::size_t i = 2; i < vertices.size(); ++i)
-        add_triangle(screen_, {vertices[0], vertices[i - 1], vertices[i]}, face, light_);
+        add_part(screen_, {vertices[0], vertices[i - 1], vertices[i]}, on, light_);
 }
 
 void LightShadows::add(const Progress& progress, ShadowCounts& counts) {
