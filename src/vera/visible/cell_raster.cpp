@@ -253,8 +253,18 @@ void EdgeSweep::change_active(const Event& event) {
         return;
     const bool is_shadow = raster_.scene.triangles[covers_[event.cover].triangle].is_shadow();
     std::vector<std::uint32_t>& active = is_shadow ? active_shadows_ : active_;
+    // In the triangles' order, whatever the edge: where the order of three goes round, all edges then
+    // take the same for the nearest.
     if (event.begins)
-        active.push_back(event.cover);
+        active.insert(
+            std::upper_bound(
+                active.begin(),
+                active.end(),
+                event.cover,
+                [&](std::uint32_t a, std::uint32_t b) {
+                    return covers_[a].triangle < covers_[b].triangle;
+                }),
+            event.cover);
     else
         active.erase(std::find(active.begin(), active.end(), event.cover));
 }

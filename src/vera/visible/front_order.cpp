@@ -89,16 +89,15 @@ NearnessSlope nearness_slope(const DepthPlane& plane) {
 FrontOrder
 order_along(const FrontFace& a, const FrontFace& b, const std::array<NearnessPlace, 2>& places) {
     const double sure = sure_distance(a.slope, b.slope);
-    bool first = false;
-    bool second = false;
-    for (const NearnessPlace& place : places) {
-        const double difference = a.slope.at(place) - b.slope.at(place);
-        first = first || difference > sure;
-        second = second || difference < -sure;
-    }
-    if (first == second)
-        return first ? FrontOrder::penetrating : FrontOrder::unknown;
-    return first ? FrontOrder::first : FrontOrder::second;
+    const auto ahead = [&](NearnessPlace place) { return a.slope.at(place) - b.slope.at(place); };
+    const double one = ahead(places[0]);
+    const double other = ahead(places[1]);
+    if (std::min(one, other) > sure)
+        return FrontOrder::first;
+    if (std::max(one, other) < -sure)
+        return FrontOrder::second;
+    return std::max(one, other) > sure && std::min(one, other) < -sure ? FrontOrder::penetrating
+                                                                       : FrontOrder::unknown;
 }
 
 FrontOrder order_in_overlap(const FrontFace& a, const FrontFace& b) {
