@@ -3,6 +3,7 @@
 #include "vera/visible/brute_force.h"
 #include "vera/visible/cells.h"
 #include "vera/visible/penetrations.h"
+#include "vera/visible/sheets.h"
 #include "vera/visible/visible_map.h"
 
 #include <algorithm>
@@ -195,6 +196,43 @@ TEST(Cells, HoldListsInProportionToTheTrianglesHoweverManyLieOneBehindTheOther) 
         slopes.push_back(nearness_slope(planes.back()));
     }
     EXPECT_LE(cells_of(scene, planes, slopes).triangles.size(), 64 * count + 65536);
+}
+
+TEST(Cells, AreBlockedByNothingNearerThanWhatCoversThem) {
+    std::size_t blocked = 0;
+    for (std::uint64_t seed = 0; seed < 40; ++seed) {
+        const ScreenScene scene = seed % 2 == 0
+            ? terrain(seed, 4 << (seed % 5))
+            : layers(seed, 1 + seed % 40, std::int32_t{1} << (1 + seed % 4));
+        std::vector<DepthPlane> planes;
+        std::vector<NearnessSlope> slopes;
+        for (const ScreenTriangle& triangle : scene.triangles) {
+            planes.push_back(plane_of(scene, triangle));
+            slopes.push_back(nearness_slope(planes.back()));
+        }
+        const ScreenEdges edges = screen_edges(scene);
+        Cells cells = cells_of(scene, planes, slopes);
+        const std::vector<double> alone = cells.blocked;
+        block_by_sheets(cells, {scene, edges, edge_neighbours(scene, edges), planes, slopes});
+        std::mt19937_64 random(seed);
+        for (int i = 0; i < 200; ++i) {
+            const auto x = static_cast<std::int32_t>(random() % screen_size);
+            const auto y = static_cast<std::int32_t>(random() % screen_size);
+            const std::size_t cell = cells.number(cells.cell_of(x), cells.cell_of(y));
+            double nearest = -1;
+            for (std::size_t j = 0; j < scene.triangles.size(); ++j) {
+                const auto corners = corners_of(scene, scene.triangles[j]);
+                const auto is_left = [&](std::size_t k) {
+                    return orientation(corners[k].point, corners[(k + 1) % 3].point, {x, y}) >= 0;
+                };
+                if (is_left(0) && is_left(1) && is_left(2))
+                    nearest = std::max(nearest, planes[j].value(x, y));
+            }
+            EXPECT_LE(cells.blocked[cell], nearest) << "seed " << seed << " at " << x << " " << y;
+            blocked += cells.blocked[cell] > alone[cell] ? 1 : 0;
+        }
+    }
+    EXPECT_GT(blocked, 300U);
 }
 
 TEST(ScreenScene, KeepsTheFirstOfTheTextOfTrianglesInOnePlace) {

@@ -4,6 +4,7 @@
 #include "vera/visible/cells.h"
 #include "vera/visible/edges.h"
 #include "vera/visible/front_order.h"
+#include "vera/visible/sheets.h"
 
 #include <algorithm>
 #include <array>
@@ -411,42 +412,14 @@ std::vector<double> edge_margins(const Raster& raster) {
     return margins;
 }
 
-/// The edges that have nothing but two parts of one shadow, one on each side: beside them the same
-/// is seen.
-std::vector<std::uint8_t> inner_edges(const ScreenScene& scene, const ScreenEdges& edges) {
-    enum State : std::uint8_t { none, once, twice, other };
-
-    std::vector<std::uint8_t> states(edges.edges.size(), none);
-    std::vector<std::uint32_t> shadows(edges.edges.size(), no_triangle);
-    for (std::uint32_t i = 0; i < scene.triangles.size(); ++i)
-        for (std::size_t side = 0; side < 3; ++side) {
-            const ScreenTriangle& triangle = scene.triangles[i];
-            const std::uint32_t edge = edges.of_triangle[i][side];
-            if (!triangle.is_shadow() || states[edge] >= twice) {
-                states[edge] = other;
-            } else if (states[edge] == none) {
-                states[edge] = once;
-                shadows[edge] = i;
-            } else {
-                const ScreenTriangle& before = scene.triangles[shadows[edge]];
-                const bool is_same =
-                    before.source == triangle.source && before.light == triangle.light;
-                // Round to the left, neighbours have their common side in opposite directions.
-                const auto begins = [&](const ScreenTriangle& of, std::uint32_t vertex) {
-                    for (std::size_t j = 0; j < 3; ++j)
-                        if (of.vertices[j] == vertex
-                            && of.vertices[(j + 1) % 3] == edges.edges[edge].end)
-                            return true;
-                    return false;
-                };
-                const std::uint32_t vertex = edges.edges[edge].begin;
-                states[edge] =
-                    is_same && begins(before, vertex) != begins(triangle, vertex) ? twice : other;
-            }
-        }
-    for (std::uint8_t& state : states)
-        state = state == twice ? 1 : 0;
-    return states;
+/// Whether the edge parts two parts of one shadow: beside it the same is seen. (Where several are on
+/// a side, it is followed like any other.)
+bool is_inner(const ScreenScene& scene, const EdgeNeighbours& beside) {
+    if (!beside.are_two())
+        return false;
+    const ScreenTriangle& left = scene.triangles[beside.left];
+    const ScreenTriangle& right = scene.triangles[beside.right];
+    return left.is_shadow() && left.light == right.light && left.source == right.source;
 }
 
 Raster raster_of(const ScreenScene& scene, const CancelFlag* cancel) {
@@ -461,8 +434,12 @@ Raster raster_of(const ScreenScene& scene, const CancelFlag* cancel) {
         raster.corners[i] = {corners[0].point, corners[1].point, corners[2].point};
     }
     raster.edges = screen_edges(scene);
-    raster.is_inner = inner_edges(scene, raster.edges);
+    const std::vector<EdgeNeighbours> neighbours = edge_neighbours(scene, raster.edges);
+    raster.is_inner.resize(neighbours.size());
+    for (std::size_t i = 0; i < neighbours.size(); ++i)
+        raster.is_inner[i] = is_inner(scene, neighbours[i]) ? 1 : 0;
     raster.cells = cells_of(scene, raster.planes, raster.slopes, cancel);
+    block_by_sheets(raster.cells, {scene, raster.edges, neighbours, raster.planes, raster.slopes});
     const std::vector<double> margins = edge_margins(raster);
     raster.is_hidden.resize(raster.edges.edges.size());
     parallel_ranges(raster.is_hidden.size(), 4096, [&](std::size_t first, std::size_t last) {

@@ -14,9 +14,6 @@
 
 namespace vera {
 
-/// No triangle is seen: the background.
-constexpr std::uint32_t no_triangle = ~std::uint32_t{0};
-
 /// A part of an edge that is seen, with different sources beside it, or one that different lights
 /// reach.
 struct VisiblePiece {

@@ -49,4 +49,22 @@ ScreenEdges screen_edges(const ScreenScene& scene) {
     return result;
 }
 
+std::vector<EdgeNeighbours> edge_neighbours(const ScreenScene& scene, const ScreenEdges& edges) {
+    constexpr std::uint32_t several = no_triangle - 1;
+    std::vector<EdgeNeighbours> result(edges.edges.size());
+    for (std::uint32_t i = 0; i < scene.triangles.size(); ++i)
+        for (std::size_t side = 0; side < 3; ++side) {
+            const std::uint32_t edge = edges.of_triangle[i][side];
+            // Its corners go round to the left.
+            const bool is_left = scene.triangles[i].vertices[side] == edges.edges[edge].begin;
+            std::uint32_t& place = is_left ? result[edge].left : result[edge].right;
+            place = place == no_triangle ? i : several;
+        }
+    for (EdgeNeighbours& of_edge : result)
+        for (std::uint32_t* place : {&of_edge.left, &of_edge.right})
+            if (*place == several)
+                *place = no_triangle;
+    return result;
+}
+
 } // namespace vera

@@ -26,4 +26,18 @@ struct ScreenEdges {
 
 ScreenEdges screen_edges(const ScreenScene& scene);
 
+/// The triangles beside an edge, which have it for a side, or no_triangle: where there are none, or
+/// several on one side.
+struct EdgeNeighbours {
+    std::uint32_t left = no_triangle; ///< of the way from its begin to its end
+    std::uint32_t right = no_triangle;
+
+    /// One on each side.
+    bool are_two() const { return left != no_triangle && right != no_triangle; }
+};
+
+/// Of each edge.
+std::vector<EdgeNeighbours>
+edge_neighbours(const ScreenScene& scene, const ScreenEdges& edges);
+
 } // namespace vera

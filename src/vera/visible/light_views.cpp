@@ -60,17 +60,9 @@ std::vector<Camera> cameras_of(const Facets& facets, Vec3 position) {
     return cameras;
 }
 
-/// Which edges lie within one source.
-std::vector<std::uint8_t> inner_edges(const ScreenScene& view, const ScreenEdges& edges) {
-    std::vector<std::uint32_t> owner(edges.edges.size(), no_source);
-    std::vector<std::uint8_t> is_inner(edges.edges.size());
-    for (std::size_t i = 0; i < view.triangles.size(); ++i)
-        for (const std::uint32_t edge : edges.of_triangle[i]) {
-            if (owner[edge] == view.triangles[i].source)
-                is_inner[edge] = 1;
-            owner[edge] = view.triangles[i].source;
-        }
-    return is_inner;
+bool is_within_source(const ScreenScene& view, const EdgeNeighbours& beside) {
+    return beside.are_two()
+        && view.triangles[beside.left].source == view.triangles[beside.right].source;
 }
 
 } // namespace
@@ -85,7 +77,7 @@ LitFacets::LitFacets(const Scene& scene, const Facets& facets)
 void LitFacets::add(const ScreenScene& view, const Progress& progress, const CancelFlag* cancel) {
     const VisiblePieces pieces = cell_raster(view, progress, cancel);
     const ScreenEdges edges = screen_edges(view);
-    const std::vector<std::uint8_t> is_inner = inner_edges(view, edges);
+    const std::vector<EdgeNeighbours> neighbours = edge_neighbours(view, edges);
     // A surface that is seen beside an edge and goes on behind what is seen on the other side.
     const auto goes_on = [&](std::uint32_t triangle, const VisiblePiece& piece) {
         const auto corners = corners_of(view, view.triangles[triangle]);
@@ -94,7 +86,7 @@ void LitFacets::add(const ScreenScene& view, const Progress& progress, const Can
             const ScreenPoint to = corners[(i + 1) % 3].point;
             if (orientation(from, to, piece.edge_begin) == 0
                 && orientation(from, to, piece.edge_end) == 0)
-                return is_inner[edges.of_triangle[triangle][i]] != 0;
+                return is_within_source(view, neighbours[edges.of_triangle[triangle][i]]);
         }
         return true;
     };

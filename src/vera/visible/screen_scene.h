@@ -12,6 +12,9 @@ namespace vera {
 /// Stands for no source: the background.
 constexpr std::uint32_t no_source = ~std::uint32_t{0};
 
+/// Stands for no triangle: the background, where something is seen.
+constexpr std::uint32_t no_triangle = ~std::uint32_t{0};
+
 /// Lights, a bit each.
 using LightSet = std::uint32_t;
 

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vera/visible/sheets.h"
+
+#include "vera/base/parallel.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+namespace vera {
+
+namespace {
+
+/// A closed square of the grid.
+struct Square {
+    ScreenPoint low;
+    ScreenPoint high;
+};
+
+/// False where the segment surely has no point of the square.
+bool may_meet(const Square& square, ScreenPoint a, ScreenPoint b) {
+    if (std::max(a.x, b.x) < square.low.x || std::min(a.x, b.x) > square.high.x
+        || std::max(a.y, b.y) < square.low.y || std::min(a.y, b.y) > square.high.y)
+        return false;
+    bool left = false;
+    bool right = false;
+    for (const ScreenPoint corner :
+         {square.low,
+          square.high,
+          ScreenPoint{square.low.x, square.high.y},
+          ScreenPoint{square.high.x, square.low.y}}) {
+        const std::int64_t side = orientation(a, b, corner);
+        left = left || side >= 0;
+        right = right || side <= 0;
+    }
+    return left && right;
+}
+
+/// Joins the triangles of one cell to sheets; kept from cell to cell.
+class SheetsOfCell {
+public:
+    explicit SheetsOfCell(const SheetScene& sheets)
+        : sheets_(sheets) {}
+
+    /// How near the nearest sheet is that covers the cell, less what may be amiss; -1: there is none.
+    double blocked(std::span<const std::uint32_t> triangles, const Square& square);
+
+private:
+    std::uint32_t root(std::uint32_t i) {
+        while (parent_[i] != i)
+            i = parent_[i] = parent_[parent_[i]];
+        return i;
+    }
+
+    void join(std::uint32_t i, std::span<const std::uint32_t> triangles, const Square& square);
+    double least_nearness(std::uint32_t triangle, const Square& square) const;
+
+    const SheetScene& sheets_;
+    // Of the cell's triangles, by their place in its list.
+    std::vector<std::uint32_t> parent_;
+    std::vector<std::uint8_t> ends_here_; ///< whether the sheet has a border in the cell
+    std::vector<double> least_;           ///< of the sheet at its root
+};
+
+/// Joins the triangle to those beyond its sides in the cell.
+void SheetsOfCell::join(
+    std::uint32_t i, std::span<const std::uint32_t> triangles, const Square& square) {
+    const ScreenScene& scene = sheets_.scene;
+    const ScreenTriangle& triangle = scene.triangles[triangles[i]];
+    for (std::size_t side = 0; side < 3; ++side) {
+        const ScreenPoint from = scene.vertices[triangle.vertices[side]].point;
+        const ScreenPoint to = scene.vertices[triangle.vertices[(side + 1) % 3]].point;
+        if (!may_meet(square, from, to))
+            continue;
+        const EdgeNeighbours& beside =
+            sheets_.neighbours[sheets_.edges.of_triangle[triangles[i]][side]];
+        const std::uint32_t other = beside.left == triangles[i] ? beside.right : beside.left;
+        // One that is hidden here already is not in the list.
+        const auto found = beside.are_two()
+            ? std::lower_bound(triangles.begin(), triangles.end(), other)
+            : triangles.end();
+        if (found == triangles.end() || *found != other)
+            ends_here_[i] = 1;
+        else
+            parent_[root(i)] = root(static_cast<std::uint32_t>(found - triangles.begin()));
+    }
+}
+
+/// Not more than how near the triangle is at any of its points in the cell.
+double SheetsOfCell::least_nearness(std::uint32_t triangle, const Square& square) const {
+    const auto corners = corners_of(sheets_.scene, sheets_.scene.triangles[triangle]);
+    const auto of_corners = static_cast<double>(
+        std::min({corners[0].nearness, corners[1].nearness, corners[2].nearness}));
+    const NearnessSlope& slope = sheets_.slopes[triangle];
+    double of_square = std::numeric_limits<double>::infinity();
+    for (const std::int32_t x : {square.low.x, square.high.x})
+        for (const std::int32_t y : {square.low.y, square.high.y})
+            of_square = std::min(
+                of_square, slope.at({static_cast<double>(x), static_cast<double>(y)}));
+    return std::max(of_corners, of_square) - 1 - hidden_margin(slope);
+}
+
+double SheetsOfCell::blocked(std::span<const std::uint32_t> triangles, const Square& square) {
+    const std::size_t count = triangles.size();
+    parent_.resize(count);
+    std::iota(parent_.begin(), parent_.end(), 0U);
+    ends_here_.assign(count, 0);
+    least_.assign(count, std::numeric_limits<double>::infinity());
+    for (std::uint32_t i = 0; i < count; ++i)
+        if (!sheets_.scene.triangles[triangles[i]].is_shadow())
+            join(i, triangles, square);
+        else
+            ends_here_[i] = 1;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const std::uint32_t sheet = root(i);
+        ends_here_[sheet] = ends_here_[sheet] | ends_here_[i];
+        if (ends_here_[sheet] == 0)
+            least_[sheet] = std::min(least_[sheet], least_nearness(triangles[i], square));
+    }
+    double blocked = -1;
+    for (std::uint32_t i = 0; i < count; ++i)
+        if (parent_[i] == i && ends_here_[i] == 0)
+            blocked = std::max(blocked, least_[i]);
+    return blocked;
+}
+
+double nearest_of(const SheetScene& sheets, std::uint32_t triangle) {
+    const auto corners = corners_of(sheets.scene, sheets.scene.triangles[triangle]);
+    return static_cast<double>(
+               std::max({corners[0].nearness, corners[1].nearness, corners[2].nearness}))
+        + hidden_margin(sheets.slopes[triangle]);
+}
+
+/// Takes what is hidden out of the cells' lists.
+void leave_out_hidden(Cells& cells, const SheetScene& sheets) {
+    std::uint32_t kept = 0;
+    for (std::size_t cell = 0; cell + 1 < cells.starts.size(); ++cell) {
+        const std::uint32_t first = cells.starts[cell];
+        const std::uint32_t last = cells.starts[cell + 1];
+        cells.starts[cell] = kept;
+        for (std::uint32_t i = first; i < last; ++i)
+            if (nearest_of(sheets, cells.triangles[i]) >= cells.blocked[cell])
+                cells.triangles[kept++] = cells.triangles[i];
+    }
+    cells.starts.back() = kept;
+    cells.triangles.resize(kept);
+}
+
+} // namespace
+
+void block_by_sheets(Cells& cells, const SheetScene& sheets) {
+    // In longer lists there is hardly a cell without a border, and joining takes long.
+    constexpr std::size_t longest = 256;
+    parallel_ranges(cells.blocked.size(), 4096, [&](std::size_t first, std::size_t last) {
+        SheetsOfCell sheets_of_cell(sheets);
+        for (std::size_t cell = first; cell < last; ++cell) {
+            const auto triangles = cells.triangles_of(cell);
+            if (triangles.size() < 2 || triangles.size() > longest)
+                continue;
+            const auto per_side = static_cast<std::size_t>(cells.per_side);
+            const ScreenPoint low = {
+                static_cast<std::int32_t>(cell % per_side) << cells.shift,
+                static_cast<std::int32_t>(cell / per_side) << cells.shift};
+            const std::int32_t size = std::int32_t{1} << cells.shift;
+            const double blocked =
+                sheets_of_cell.blocked(triangles, {low, {low.x + size, low.y + size}});
+            cells.blocked[cell] = std::max(cells.blocked[cell], blocked);
+        }
+    });
+    leave_out_hidden(cells, sheets);
+}
+
+} // namespace vera
