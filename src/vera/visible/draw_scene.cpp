@@ -9,6 +9,7 @@
 #include "vera/visible/outline_strokes.h"
 #include "vera/visible/penetrations.h"
 #include "vera/visible/projection.h"
+#include "vera/visible/tones.h"
 #include "vera/visible/visible_map.h"
 
 #include <algorithm>
@@ -180,7 +181,11 @@ color_of(const Painted& painted, std::uint32_t face, std::span<const VisibleMap:
         std::max_element(rings.begin(), rings.end(), [&](const auto& a, const auto& b) {
             return doubled_area(painted.map, a) < doubled_area(painted.map, b);
         });
-    return as_drawn(light_of_face(painted, face, *largest));
+    const Color light = light_of_face(painted, face, *largest);
+    return as_drawn(
+        painted.settings.style == DrawingStyle::toon
+            ? toned(light, material_of(painted.scene, facet.material))
+            : light);
 }
 
 void add_fills(const Painted& painted, Drawing& drawing) {
@@ -212,9 +217,11 @@ std::optional<DrawingColor> background(const Painted& painted) {
     case DrawingStyle::ids:
         return color_of_number(0);
     case DrawingStyle::flat:
+    case DrawingStyle::toon:
         return as_drawn(firmament_color(
             painted.picture.firmament, view_ray(painted.camera, 0.5, 0.5).direction));
     case DrawingStyle::lines:
+    case DrawingStyle::hidden_lines:
         break;
     }
     return std::nullopt;
@@ -262,10 +269,23 @@ DrawnScene draw_scene(
     drawn.drawing.width = picture.width;
     drawn.drawing.height = picture.height;
     drawn.drawing.background = background(painted);
-    if (settings.style == DrawingStyle::lines)
-        add_strokes({scene, all, faces, screen, whole.pieces, map}, picture, drawn.drawing);
-    else
+    if (has_fills(settings.style))
         add_fills(painted, drawn.drawing);
+    if (has_lines(settings.style))
+        add_strokes(
+            {scene,
+             camera,
+             camera_map,
+             picture,
+             all,
+             faces,
+             screen,
+             whole.pieces,
+             map,
+             settings.deviation},
+            settings.style == DrawingStyle::hidden_lines ? HiddenLines::drawn
+                                                         : HiddenLines::left_out,
+            drawn.drawing);
     for (std::size_t i = 0; i < map.rings.size(); ++i)
         drawn.visible_faces += i == 0 || map.rings[i].source != map.rings[i - 1].source ? 1 : 0;
     return drawn;

@@ -49,4 +49,20 @@ ScreenEdges screen_edges(const ScreenScene& scene) {
     return result;
 }
 
+EdgeTriangles edge_triangles(const ScreenEdges& edges) {
+    EdgeTriangles result;
+    result.starts.resize(edges.edges.size() + 1);
+    for (const auto& sides : edges.of_triangle)
+        for (const std::uint32_t edge : sides)
+            ++result.starts[edge + 1];
+    for (std::size_t i = 1; i < result.starts.size(); ++i)
+        result.starts[i] += result.starts[i - 1];
+    result.triangles.resize(result.starts.back());
+    std::vector<std::uint32_t> next(result.starts.begin(), result.starts.end() - 1);
+    for (std::uint32_t i = 0; i < edges.of_triangle.size(); ++i)
+        for (const std::uint32_t edge : edges.of_triangle[i])
+            result.triangles[next[edge]++] = i;
+    return result;
+}
+
 } // namespace vera

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace vera {
@@ -22,5 +23,17 @@ struct ScreenEdges {
 };
 
 ScreenEdges screen_edges(const ScreenScene& scene);
+
+/// The triangles that have each edge.
+struct EdgeTriangles {
+    std::vector<std::uint32_t> starts;    ///< edge i has triangles[starts[i]] to [starts[i + 1]]
+    std::vector<std::uint32_t> triangles; ///< in ascending order within an edge
+
+    std::span<const std::uint32_t> of(std::uint32_t edge) const {
+        return std::span(triangles).subspan(starts[edge], starts[edge + 1] - starts[edge]);
+    }
+};
+
+EdgeTriangles edge_triangles(const ScreenEdges& edges);
 
 } // namespace vera
