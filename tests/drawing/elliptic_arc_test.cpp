@@ -88,7 +88,7 @@ TEST(EllipticArc, BezierCurvesKeepTheirBound) {
         const int parts = bezier_parts(arc, error);
         const double step = (arc.end_degrees - arc.begin_degrees) / parts;
         EXPECT_LE(std::abs(step), 90.0001);
-        const double begin = arc.begin_degrees + step * static_cast<double>(random() % 4 % parts);
+        const double begin = arc.begin_degrees + step * static_cast<double>(i % 4 % parts);
         const DrawingPoint first = point_at(arc.ellipse, begin);
         const DrawingPoint last = point_at(arc.ellipse, begin + step);
         const auto [second, third] = bezier_controls(arc.ellipse, begin, begin + step);

@@ -201,7 +201,7 @@ struct SvgArc {
     DrawingPoint to;
 };
 
-std::vector<SvgArc> svg_arcs(std::string text) {
+std::vector<SvgArc> svg_arcs(const std::string& text) {
     std::vector<double> numbers;
     std::string digits;
     for (const char letter : text + ' ') {

@@ -165,6 +165,75 @@ TEST(OutlineStrokes, EndAnArcWhereAnotherCoversIt) {
     }
 }
 
+/// A ball, or a ring about it, of quarter circles.
+RotationalShape arcs(double radius, double r, Vec3 axis) {
+    RotationalShape shape;
+    shape.axis = normalized(axis);
+    const auto arc_to = [&](ContourPiece::Point control, ContourPiece::Point end) {
+        ContourPiece piece;
+        piece.kind = ContourPiece::Kind::conic;
+        piece.control[0] = control;
+        piece.weight = std::sqrt(0.5);
+        piece.end = end;
+        shape.contour.push_back(piece);
+    };
+    shape.start = {radius, -r};
+    arc_to({radius + r, -r}, {radius + r, 0});
+    arc_to({radius + r, r}, {radius, r});
+    if (radius > 0) {
+        arc_to({radius - r, r}, {radius - r, 0});
+        arc_to({radius - r, -r}, {radius, -r});
+    }
+    return shape;
+}
+
+TEST(OutlineStrokes, OfABallThatIsARotationalShapeAreOneEllipseToo) {
+    Scene scene;
+    add(scene.geometry, arcs(0, 1.2, {0.3, 1, 0.2}));
+    for (const double deviation : {0.1, 2.0}) {
+        const auto strokes =
+            lines_of(scene, camera_from_above(false), DrawingStyle::hidden_lines, deviation);
+        ASSERT_EQ(strokes.size(), 1U) << deviation;
+        EXPECT_EQ(strokes[0].points.size(), 1U);
+        EXPECT_EQ(strokes[0].arcs.size(), 1U);
+    }
+}
+
+double length_of(const Stroke& stroke) {
+    double sum = 0;
+    for (std::size_t i = 1; i < stroke.points.size(); ++i)
+        sum += distance(stroke.points[i - 1], stroke.points[i]);
+    return stroke.closed ? sum + distance(stroke.points.back(), stroke.points.front()) : sum;
+}
+
+TEST(OutlineStrokes, DrawTheSilhouettesOfARingOnce) {
+    // As the camera sees it, its axis at 25 degrees. Its outlines lie on both sides of the ellipse
+    // that its middle circle is seen as, everywhere as far from it: together they are twice as
+    // long.
+    Scene scene;
+    const double turn = 25 / 57.29577951308232;
+    add(scene.geometry, arcs(1.2, 0.4, {0, std::sin(turn), std::cos(turn)}));
+    double perimeter = 0;
+    constexpr int parts = 1000;
+    const auto place = [&](int i) {
+        const double angle = 2 * 3.141592653589793 * i / parts;
+        return DrawingPoint{1.2 * std::cos(angle), 1.2 * std::cos(turn) * std::sin(angle)};
+    };
+    for (int i = 0; i < parts; ++i)
+        perimeter += distance(place(i), place(i + 1)) * 512 / 6;
+    for (const double deviation : {0.05, 0.5}) {
+        const auto strokes =
+            lines_of(scene, camera_from_the_front(), DrawingStyle::hidden_lines, deviation);
+        const auto all = counts(strokes);
+        EXPECT_EQ(all.size(), 1U) << deviation; // nothing hidden
+        EXPECT_LE(all.at(LineClass::silhouette), 6) << deviation;
+        double sum = 0;
+        for (const Stroke& stroke : strokes)
+            sum += length_of(stroke);
+        EXPECT_NEAR(sum, 2 * perimeter, 0.01 * perimeter) << deviation;
+    }
+}
+
 TEST(OutlineStrokes, TellCreasesFromWhereAThingStandsOnAnother) {
     Scene scene;
     add(scene.geometry, cylinder({0, -1, 0}, 0.8, 1.5));

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "vera/visible/line_chains.h"
-#include "vera/visible/outline_curves.h"
 
 #include <vector>
 

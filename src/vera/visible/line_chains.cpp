@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/line_chains.h"
 
-#include "vera/visible/outline_curves.h"
-
 #include <algorithm>
 #include <cstddef>
 

@@ -3,6 +3,7 @@
 
 #include "vera/drawing/line_class.h"
 #include "vera/exact/screen_point.h"
+#include "vera/visible/outline_curves.h"
 
 #include <array>
 #include <cstdint>
@@ -18,9 +19,10 @@ struct LinePart {
     ScreenStep step = {};                   ///< along it
     LineClass line_class = LineClass::silhouette;
     std::array<std::uint32_t, 2> faces = {}; ///< beside it, or no_source
-    std::uint32_t curve = 0;                 ///< see OutlineCurves, or no_curve
+    std::uint32_t curve = no_curve;          ///< see OutlineCurves
     double begin_degrees = 0; ///< on the curve, once it is one part of it: see unite_on_curves()
     double end_degrees = 0;
+    bool is_between_neighbours = false; ///< see LineRules::is_between_neighbours()
 };
 
 /// Parts that go on in each other: parts[i] leads from vertices[i] to the next, of a closed chain

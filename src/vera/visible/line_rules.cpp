@@ -80,10 +80,11 @@ bool LineRules::are_smooth(std::uint32_t one_face, std::uint32_t other_face) con
         && are_of_one_item(scene_, a.primitive, b.primitive);
 }
 
-/// Whether both are facets of one curved surface and have a corner in common.
-bool LineRules::are_neighbours(std::uint32_t one_face, std::uint32_t other_face) const {
-    const Facets::Triangle& a = facets_.triangles[faces_.first_facet[one_face]];
-    const Facets::Triangle& b = facets_.triangles[faces_.first_facet[other_face]];
+bool LineRules::is_between_neighbours(const VisiblePiece& piece) const {
+    if (piece.left == no_triangle || piece.right == no_triangle || meet_there(piece))
+        return false;
+    const Facets::Triangle& a = facets_.triangles[faces_.first_facet[face_of(piece.left)]];
+    const Facets::Triangle& b = facets_.triangles[faces_.first_facet[face_of(piece.right)]];
     return a.primitive == b.primitive && a.piece == b.piece
         && std::find_first_of(
                a.corners.begin(), a.corners.end(), b.corners.begin(), b.corners.end())
@@ -133,14 +134,8 @@ bool LineRules::ends_there(
 std::optional<LineClass> LineRules::class_of(const VisiblePiece& piece) const {
     if (are_on_frame(piece.from, piece.to))
         return std::nullopt;
-    if (piece.left == no_triangle || piece.right == no_triangle)
+    if (piece.left == no_triangle || piece.right == no_triangle || !meet_there(piece))
         return LineClass::silhouette;
-    if (!meet_there(piece)) {
-        // Near the silhouette of a curved surface a facet may cover one beside it.
-        if (are_neighbours(face_of(piece.left), face_of(piece.right)))
-            return std::nullopt;
-        return LineClass::silhouette;
-    }
     if (are_smooth(face_of(piece.left), face_of(piece.right)))
         return std::nullopt;
     return ends_there(piece, piece.left, piece.right) && ends_there(piece, piece.right, piece.left)
@@ -164,6 +159,9 @@ bool LineRules::goes_on_smoothly(std::uint32_t edge, std::uint32_t triangle) con
     const std::int64_t side = side_of(edge, triangle);
     const auto all = triangles_.of(edge);
     return std::any_of(all.begin(), all.end(), [&](std::uint32_t other) {
+        // What is plane does not turn back, whatever the grid made of slivers cut from it.
+        if (other != triangle && face_of(other) == face_of(triangle))
+            return true;
         return (side_of(edge, other) > 0) != (side > 0)
             && are_smooth(face_of(triangle), face_of(other));
     });

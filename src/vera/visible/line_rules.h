@@ -29,6 +29,10 @@ public:
     /// Of a piece that is seen; nothing where the frame cuts a surface, or one goes on smoothly.
     std::optional<LineClass> class_of(const VisiblePiece& piece) const;
 
+    /// Whether the piece is where a facet of a curved surface covers one that has a corner in
+    /// common with it: near its silhouette some do.
+    bool is_between_neighbours(const VisiblePiece& piece) const;
+
     /// The edges at which a surface ends in the picture or makes a crease, seen or not, in
     /// ascending order: those of which hidden parts are drawn.
     std::vector<std::uint32_t> drawn_edges() const;
@@ -41,7 +45,6 @@ private:
     std::uint32_t face_of(std::uint32_t triangle) const;
     Vec3 normal_towards_viewer(std::uint32_t face) const;
     bool are_smooth(std::uint32_t one_face, std::uint32_t other_face) const;
-    bool are_neighbours(std::uint32_t one_face, std::uint32_t other_face) const;
     bool meet_there(const VisiblePiece& piece) const;
     bool ends_there(const VisiblePiece& piece, std::uint32_t triangle, std::uint32_t other) const;
     bool goes_on_smoothly(std::uint32_t edge, std::uint32_t triangle) const;

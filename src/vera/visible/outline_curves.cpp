@@ -61,6 +61,34 @@ bool has_corner_before(const RotationalShape& shape, std::size_t i) {
     return along <= smooth * std::sqrt((a.r * a.r + a.h * a.h) * (b.r * b.r + b.h * b.h));
 }
 
+/// The sphere about the axis that the piece is a part of: where along the axis, and how large.
+struct OnAxis {
+    double h = 0;
+    double radius = 0;
+
+    bool is_about(const OnAxis& other) const {
+        const double off = 1e-9 * radius;
+        return std::abs(h - other.h) <= off && std::abs(radius - other.radius) <= off;
+    }
+};
+
+std::optional<OnAxis> sphere_of(const RotationalShape& shape, std::size_t piece) {
+    const ContourPiece& contour = shape.contour[piece];
+    const ContourPiece::Point a = start_of(shape, piece);
+    const ContourPiece::Point b = contour.end;
+    if (contour.kind != ContourPiece::Kind::conic || a.h == b.h)
+        return std::nullopt;
+    // As far from one end as from the other; and from all between, if it is one.
+    const double h = (a.h + b.h) / 2 + (a.r - b.r) * (a.r + b.r) / (2 * (a.h - b.h));
+    const auto radius = [&](ContourPiece::Point p) {
+        return std::sqrt(p.r * p.r + (p.h - h) * (p.h - h));
+    };
+    for (const double v : {0.25, 0.5, 0.75})
+        if (std::abs(radius(point_at(contour, a, v)) - radius(a)) > 1e-9 * radius(a))
+            return std::nullopt;
+    return OnAxis{h, radius(a)};
+}
+
 } // namespace
 
 std::optional<DrawingEllipse> outline_ellipse(
@@ -113,30 +141,51 @@ OutlineCurves::OutlineCurves(
     for (const std::uint64_t primitive : primitives) {
         const PrimitivePath path = path_to(scene, primitive);
         const Item& item = path.geometry->items[path.element.item];
-        const auto add = [&](Vec3 center, std::vector<Vec3> axes) {
+        const auto curve = [&](Vec3 center, std::vector<Vec3> axes) {
             for (Vec3& axis : axes)
                 axis = transformed_vector(path.to_world, axis);
-            curves_.push_back(
-                outline_ellipse(map, picture, transformed_point(path.to_world, center), axes));
+            const auto ellipse =
+                outline_ellipse(map, picture, transformed_point(path.to_world, center), axes);
+            if (!ellipse)
+                return no_curve;
+            curves_.push_back(*ellipse);
+            return static_cast<std::uint32_t>(curves_.size() - 1);
         };
-        const auto first = static_cast<std::uint32_t>(curves_.size());
         if (item.kind == ItemKind::sphere) {
             const Sphere& sphere = path.geometry->spheres[item.index];
             const double r = sphere.radius;
-            primitives_.push_back({primitive, first, true});
-            add(sphere.center, {{r, 0, 0}, {0, r, 0}, {0, 0, r}});
+            primitives_.push_back({primitive, pieces_.size()});
+            pieces_.push_back(
+                {no_curve, no_curve, curve(sphere.center, {{r, 0, 0}, {0, r, 0}, {0, 0, r}})});
         } else if (item.kind == ItemKind::rotational_shape) {
-            const RotationalShape& shape = path.geometry->rotational_shapes[item.index];
-            const auto [u, v] = across(shape.axis);
-            primitives_.push_back({primitive, first, false});
-            for (std::size_t i = 0; i <= shape.contour.size(); ++i) {
-                const ContourPiece::Point at = start_of(shape, i);
-                if (has_corner_before(shape, i))
-                    add(shape.base + at.h * shape.axis, {at.r * u, at.r * v});
-                else
-                    curves_.emplace_back(); // no line runs along it
-            }
+            primitives_.push_back({primitive, pieces_.size()});
+            add_pieces(path.geometry->rotational_shapes[item.index], curve);
         }
+    }
+}
+
+void OutlineCurves::add_pieces(const RotationalShape& shape, const CurveOf& curve) {
+    const auto [u, v] = across(shape.axis);
+    const auto circle_before = [&, u = u, v = v](std::size_t i) {
+        const ContourPiece::Point at = start_of(shape, i);
+        return has_corner_before(shape, i) // else no line runs along it
+            ? curve(shape.base + at.h * shape.axis, {at.r * u, at.r * v})
+            : no_curve;
+    };
+    std::optional<OnAxis> last; // which several pieces may be parts of
+    std::uint32_t sphere = no_curve;
+    std::uint32_t circle = circle_before(0);
+    for (std::size_t i = 0; i < shape.contour.size(); ++i) {
+        const std::uint32_t next_circle = circle_before(i + 1);
+        const std::optional<OnAxis> found = sphere_of(shape, i);
+        if (found && !(last && last->is_about(*found)))
+            sphere = curve(
+                shape.base + found->h * shape.axis,
+                {found->radius * u, found->radius * v, found->radius * shape.axis});
+        if (found)
+            last = found;
+        pieces_.push_back({circle, next_circle, found ? sphere : no_curve});
+        circle = next_circle;
     }
 }
 
@@ -150,18 +199,19 @@ std::uint32_t OutlineCurves::curve_of(
         primitives_.end(),
         facet.primitive,
         [](const OfPrimitive& of, std::uint64_t primitive) { return of.primitive < primitive; });
-    if (found == primitives_.end() || found->primitive != facet.primitive
-        || (found->is_sphere && !is_silhouette))
+    if (found == primitives_.end() || found->primitive != facet.primitive)
         return no_curve;
     const DrawingPoint middle = {(ends[0].x + ends[1].x) / 2, (ends[0].y + ends[1].y) / 2};
-    const std::uint32_t first = found->is_sphere ? found->first : found->first + facet.piece;
-    for (std::uint32_t curve = first; curve < first + (found->is_sphere ? 1U : 2U); ++curve) {
-        const std::optional<DrawingEllipse>& ellipse = curves_[curve];
+    const OfPiece& piece = pieces_[found->first_piece + facet.piece];
+    for (const std::uint32_t curve :
+         {piece.begin, piece.end, is_silhouette ? piece.sphere : no_curve}) {
+        if (curve == no_curve)
+            continue;
+        const DrawingEllipse& ellipse = curves_[curve];
         const auto is_near = [&](DrawingPoint point) {
-            return distance(point, point_at(*ellipse, nearest_degrees(*ellipse, point)))
-                <= tolerance;
+            return distance(point, point_at(ellipse, nearest_degrees(ellipse, point))) <= tolerance;
         };
-        if (ellipse && is_near(ends[0]) && is_near(ends[1]) && is_near(middle))
+        if (is_near(ends[0]) && is_near(ends[1]) && is_near(middle))
             return curve;
     }
     return no_curve;

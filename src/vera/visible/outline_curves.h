@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -25,8 +26,8 @@ constexpr std::uint32_t no_curve = ~std::uint32_t{0};
 std::optional<DrawingEllipse> outline_ellipse(
     const CameraMap& map, const PictureSettings& picture, Vec3 center, std::span<const Vec3> axes);
 
-/// The ellipses that lines of curved primitives lie upon: the silhouettes of spheres, and the
-/// circles between the pieces of rotational shapes.
+/// The ellipses that lines of curved primitives lie upon: the silhouettes of spheres and of the
+/// parts of rotational shapes that belong to one, and the circles at which these have edges.
 class OutlineCurves {
 public:
     /// Of the primitives, which are in ascending order.
@@ -36,25 +37,39 @@ public:
         const PictureSettings& picture,
         std::span<const std::uint64_t> primitives);
 
-    /// The curve of the facet's primitive that is within the tolerance, in pixels, of the line's
-    /// ends and middle; or no_curve. Of spheres only where the line is a silhouette.
+    /// The curve of the facet's primitive and piece that is within the tolerance, in pixels, of the
+    /// line's ends and middle; or no_curve. Of spheres only where the line is a silhouette.
     std::uint32_t curve_of(
         const Facets::Triangle& facet,
         bool is_silhouette,
         const std::array<DrawingPoint, 2>& ends,
         double tolerance) const;
 
-    const DrawingEllipse& operator[](std::uint32_t curve) const { return *curves_[curve]; }
+    const DrawingEllipse& operator[](std::uint32_t curve) const { return curves_[curve]; }
 
 private:
-    struct OfPrimitive {
-        std::uint64_t primitive = 0;
-        std::uint32_t first = 0; ///< in curves_
-        bool is_sphere = false;
+    /// Of a piece of a primitive the circles at which it begins and ends, and the silhouette of the
+    /// sphere that it is a part of; or no_curve.
+    struct OfPiece {
+        std::uint32_t begin = no_curve;
+        std::uint32_t end = no_curve;
+        std::uint32_t sphere = no_curve;
     };
 
+    struct OfPrimitive {
+        std::uint64_t primitive = 0;
+        std::size_t first_piece = 0; ///< in pieces_
+    };
+
+    /// The number of the outline of what has that center and these axes, in the shape's
+    /// coordinates.
+    using CurveOf = std::function<std::uint32_t(Vec3 center, std::vector<Vec3> axes)>;
+
+    void add_pieces(const RotationalShape& shape, const CurveOf& curve);
+
     std::vector<OfPrimitive> primitives_;
-    std::vector<std::optional<DrawingEllipse>> curves_;
+    std::vector<OfPiece> pieces_;
+    std::vector<DrawingEllipse> curves_;
 };
 
 } // namespace vera

@@ -9,6 +9,7 @@
 #include "vera/visible/line_rules.h"
 #include "vera/visible/outline_curves.h"
 #include "vera/visible/point_numbers.h"
+#include "vera/visible/second_lines.h"
 
 #include <algorithm>
 #include <array>
@@ -40,14 +41,16 @@ std::vector<LinePart> visible_parts(const StrokeSources& sources, const LineRule
         return triangle == no_triangle ? no_source : sources.screen.triangles[triangle].source;
     };
     std::vector<LinePart> parts;
-    for (std::size_t i = 0; i < pieces.size(); ++i)
-        if (classes[i])
-            parts.push_back(
-                {sources.map.piece_ends[i],
-                 step(pieces[i].edge_begin, pieces[i].edge_end),
-                 *classes[i],
-                 {face_of(pieces[i].left), face_of(pieces[i].right)},
-                 no_curve});
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        if (!classes[i])
+            continue;
+        LinePart& part = parts.emplace_back();
+        part.ends = sources.map.piece_ends[i];
+        part.step = step(pieces[i].edge_begin, pieces[i].edge_end);
+        part.line_class = *classes[i];
+        part.faces = {face_of(pieces[i].left), face_of(pieces[i].right)};
+        part.is_between_neighbours = rules.is_between_neighbours(pieces[i]);
+    }
     return parts;
 }
 
@@ -59,13 +62,13 @@ void add_hidden_parts(const StrokeSources& sources, const LineRules& rules, Line
     for (const HiddenPart& part : hidden) {
         const auto& [begin, end] = edges.edges[part.edge];
         const auto triangles = rules.edge_triangles().of(part.edge);
-        lines.parts.push_back(
-            {{numbers.number(part.from), numbers.number(part.to)},
-             step(sources.screen.vertices[begin].point, sources.screen.vertices[end].point),
-             LineClass::hidden,
-             {sources.screen.triangles[triangles.front()].source,
-              sources.screen.triangles[triangles.back()].source},
-             no_curve});
+        LinePart& line = lines.parts.emplace_back();
+        line.ends = {numbers.number(part.from), numbers.number(part.to)};
+        line.step = step(sources.screen.vertices[begin].point, sources.screen.vertices[end].point);
+        line.line_class = LineClass::hidden;
+        line.faces = {
+            sources.screen.triangles[triangles.front()].source,
+            sources.screen.triangles[triangles.back()].source};
     }
 }
 
@@ -91,6 +94,11 @@ OutlineCurves curves_of(const StrokeSources& sources, const std::vector<LinePart
     return {sources.scene, sources.camera_map, sources.picture, primitives};
 }
 
+/// Of facets along a silhouette, those that hide behind others may be farther off it.
+double tolerance_of(const StrokeSources& sources, LineClass line_class) {
+    return (line_class == LineClass::hidden ? 3 : 1) * tolerance(sources);
+}
+
 void find_curves(
     const StrokeSources& sources,
     const OutlineCurves& curves,
@@ -105,7 +113,7 @@ void find_curves(
                         parts[i].line_class == LineClass::silhouette
                             || parts[i].line_class == LineClass::hidden,
                         {places[parts[i].ends[0]], places[parts[i].ends[1]]},
-                        tolerance(sources));
+                        tolerance_of(sources, parts[i].line_class));
     });
 }
 
@@ -262,6 +270,12 @@ void add_strokes(const StrokeSources& sources, HiddenLines hidden, Drawing& draw
     places.reserve(lines.points.size());
     for (const RationalPoint& point : lines.points)
         places.push_back(in_pixels(sources.picture, point));
+    leave_out_second_lines(
+        sources.facets,
+        sources.faces,
+        places,
+        tolerance_of(sources, LineClass::hidden),
+        lines.parts);
     const OutlineCurves curves = curves_of(sources, lines.parts);
     find_curves(sources, curves, places, lines.parts);
     move_to_curves(sources, curves, lines, places);
