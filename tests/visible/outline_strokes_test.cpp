@@ -258,14 +258,23 @@ TEST(OutlineStrokes, TellCreasesFromWhereAThingStandsOnAnother) {
 }
 
 TEST(OutlineStrokes, CallWhatPassesThroughEachOtherAnIntersection) {
-    Scene scene;
-    add_polygon(scene.geometry, {{-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}});
-    add_polygon(scene.geometry, {{0, -1, -1}, {0, -1, 1}, {0, 1, 1}, {0, 1, -1}});
-    const auto strokes = lines_of(scene, camera_from_above(true));
-    const auto all = counts(strokes);
-    EXPECT_EQ(all.count(LineClass::crease), 0U);
-    ASSERT_EQ(all.at(LineClass::intersection), 1);
-    EXPECT_EQ(strokes.front().points.size(), 2U); // one straight line, however it was cut
+    Scene two;
+    add_polygon(two.geometry, {{-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}});
+    add_polygon(two.geometry, {{0, -1, -1}, {0, -1, 1}, {0, 1, 1}, {0, 1, -1}});
+    // Of one thing as well.
+    Scene one;
+    Mesh mesh;
+    mesh.positions = {
+        {-2, -2, 0}, {2, -2, 0}, {0, 2, 0}, {0, -1, -1}, {0, -1, 1}, {0, 1, 1}, {0, 1, -1}};
+    mesh.position_indices = {0, 1, 2, 3, 4, 5, 3, 5, 6};
+    add(one.geometry, std::move(mesh));
+    for (const Scene& scene : {two, one}) {
+        const auto strokes = lines_of(scene, camera_from_above(true));
+        const auto all = counts(strokes);
+        EXPECT_EQ(all.count(LineClass::crease), 0U);
+        ASSERT_EQ(all.at(LineClass::intersection), 1);
+        EXPECT_EQ(strokes.front().points.size(), 2U); // one straight line, however it was cut
+    }
 }
 
 TEST(OutlineStrokes, OfABlockHaveThreeHiddenEdges) {
