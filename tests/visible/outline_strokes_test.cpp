@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "accel/random_scene.h"
 #include "scene/make_scene.h"
 #include <gtest/gtest.h>
 
@@ -323,6 +324,43 @@ TEST(OutlineStrokes, DashOfWhatIsCoveredAsMuchAsIsCovered) {
             EXPECT_NEAR(stroke.points[0].x + stroke.points[1].x, 512, 1e-3);
         }
     EXPECT_EQ(hidden, 2);
+}
+
+TEST(OutlineStrokes, OfRandomScenesAreFiniteInTheFrameAndWhole) {
+    constexpr double deviation = 0.5;
+    std::size_t arc_count = 0;
+    for (std::uint64_t seed = 0; seed < 24 && !HasFailure(); ++seed) {
+        testing::RandomSceneSettings settings;
+        settings.items = 4 + seed % 3 * 6;
+        const auto strokes = lines_of(
+            testing::random_scene(seed, settings),
+            camera_from_above(seed % 2 == 0),
+            DrawingStyle::hidden_lines,
+            deviation);
+        for (const Stroke& stroke : strokes) {
+            const std::size_t segments = stroke.points.size() - (stroke.closed ? 0 : 1);
+            ASSERT_GE(segments, 1U) << seed;
+            for (const DrawingPoint& point : stroke.points) {
+                EXPECT_TRUE(point.x > -3 && point.x < 515) << seed << ' ' << point.x;
+                EXPECT_TRUE(point.y > -3 && point.y < 515) << seed << ' ' << point.y;
+            }
+            for (std::size_t i = 0; i < stroke.arcs.size(); ++i) {
+                const DrawingArc& arc = stroke.arcs[i];
+                ++arc_count;
+                ASSERT_LT(arc.segment, segments) << seed;
+                EXPECT_TRUE(i == 0 || stroke.arcs[i - 1].segment < arc.segment) << seed;
+                EXPECT_LE(std::abs(sweep_of(arc)), 360) << seed;
+                const std::size_t next =
+                    arc.segment + 1 == stroke.points.size() ? 0 : arc.segment + 1;
+                // Where two outlines all but touch, the place is on one of them alone.
+                const DrawingPoint begin = point_at(arc.ellipse, arc.begin_degrees);
+                const DrawingPoint end = point_at(arc.ellipse, arc.end_degrees);
+                EXPECT_LE(distance(begin, stroke.points[arc.segment]), 3 * deviation) << seed;
+                EXPECT_LE(distance(end, stroke.points[next]), 3 * deviation) << seed;
+            }
+        }
+    }
+    EXPECT_GT(arc_count, 100U);
 }
 
 TEST(OutlineStrokes, DrawBladesAndFlatAnglesByTheAngleThatIsSeen) {
