@@ -11,6 +11,7 @@
 
 #include "command.h"
 #include "interrupt.h"
+#include "line_options.h"
 #include "messages.h"
 #include "option_values.h"
 #include "prepared_scene.h"
@@ -36,6 +37,8 @@ struct Request {
     double deviation = 0.1;
     double page = 0;
     double threads = 0;
+    std::vector<std::string> lines;
+    bool shadow_lines = false;
     bool json = false;
 };
 
@@ -60,15 +63,41 @@ DrawingFormat output_format(const Request& request) {
     throw CommandLineError(fmt::format(
         "cannot tell the format of '{}' by its name; {}give --format with one of {}{}",
         request.output,
-        similar_file(request.output, {".svg", ".pdf", ".eps"}),
+        similar_file(request.output, {".svg", ".pdf", ".eps", ".dxf"}),
         drawing_format_names(),
         request.output.ends_with(".png") ? ", or make a picture with 'vera render'" : ""));
 }
 
+constexpr std::pair<const char*, DrawingStyle> style_of_name[] = {
+    {"flat", DrawingStyle::flat},
+    {"ids", DrawingStyle::ids},
+    {"lines", DrawingStyle::lines},
+    {"hidden-lines", DrawingStyle::hidden_lines},
+    {"toon", DrawingStyle::toon}};
+
 DrawingStyle style_of(const Request& request) {
-    if (request.style == "ids")
-        return DrawingStyle::ids;
-    return request.style == "lines" ? DrawingStyle::lines : DrawingStyle::flat;
+    for (const auto& [name, style] : style_of_name)
+        if (request.style == name)
+            return style;
+    return DrawingStyle::flat; // not reached: the command line was checked
+}
+
+void check_style(const Request& request, DrawingStyle style, DrawingFormat format) {
+    if (format == DrawingFormat::dxf && has_fills(style))
+        throw CommandLineError(fmt::format(
+            "DXF is for lines, and --style {} fills areas; take --style lines or hidden-lines, or "
+            "another format",
+            request.style));
+    if (!request.lines.empty() && !has_lines(style))
+        throw CommandLineError(fmt::format(
+            "--line is for styles with lines, and --style {} has none; take --style lines, "
+            "hidden-lines or toon",
+            request.style));
+    if (request.shadow_lines && !has_lines(style))
+        throw CommandLineError(fmt::format(
+            "--shadow-lines is for styles with lines, and --style {} has none; take --style lines, "
+            "hidden-lines or toon",
+            request.style));
 }
 
 /// Scales the light as EXPMES would for a picture.
@@ -136,10 +165,14 @@ void draw(const Request& request, const Console& console) {
     const DrawingFormat format = output_format(request);
     DrawSettings settings;
     settings.style = style_of(request);
+    settings.shadow_lines = request.shadow_lines;
     settings.deviation = number_of("--deviation", request.deviation, 1e-4, 100);
     DrawingSettings file_settings;
     file_settings.precision = number_of("--precision", request.precision, 1e-6, 1);
     file_settings.page_width_millimeters = number_of("--page", request.page, 0, 1e5);
+    check_style(request, settings.style, format);
+    for (const std::string& line : request.lines)
+        apply_line_option(line, file_settings.line_styles);
     const ThreadLimit limit(whole_of("--threads", request.threads, 0, most_threads));
     Report report;
     Stopwatch watch;
@@ -150,7 +183,7 @@ void draw(const Request& request, const Console& console) {
     OutputFile file(request.output);
     report.read_seconds = watch.lap();
 
-    if (settings.style == DrawingStyle::flat)
+    if (settings.style == DrawingStyle::flat || settings.style == DrawingStyle::toon)
         expose_as_picture(prepared, console);
     DrawnScene drawn;
     {
@@ -216,10 +249,22 @@ void add_draw_command(CLI::App& app, Console& console) {
             "--style",
             request->style,
             "flat: the colours that the light gives, with shadows, without mirrors; ids: each "
-            "primitive's number as a colour; lines: silhouettes and creases")
-        ->type_name("flat|ids|lines")
-        ->check(CLI::IsMember({"flat", "ids", "lines"}).description(""))
+            "primitive's number as a colour; lines: silhouettes, creases and intersections; "
+            "hidden-lines: and what of them lies behind something, dashed; toon: three tones of "
+            "each colour, and lines")
+        ->type_name("flat|ids|lines|hidden-lines|toon")
+        ->check(CLI::IsMember({"flat", "ids", "lines", "hidden-lines", "toon"}).description(""))
         ->capture_default_str();
+    command
+        ->add_option(
+            "--line",
+            request->lines,
+            "how a class of lines is drawn, lengths in pixels, as in "
+            "silhouette:width=2,color=#333,dash=4-2; may be given several times")
+        ->type_name("CLASS:PROPERTIES")
+        ->allow_extra_args(false);
+    command->add_flag(
+        "--shadow-lines", request->shadow_lines, "lines where shadows end as well, class shadow");
     command
         ->add_option("--precision", request->precision, "of the coordinates, in pixels of --raster")
         ->type_name("X")
@@ -240,10 +285,12 @@ void add_draw_command(CLI::App& app, Console& console) {
         ->capture_default_str();
     command->add_flag("--json", request->json, "counts and times as JSON on standard output");
     add_console_options(*command, console);
-    command->footer("Examples:\n"
-                    "  vera draw bracket.obj -o bracket.svg\n"
-                    "  vera draw scene.vera -o scene.pdf --page 120\n"
-                    "  vera draw scene.vera -o outlines.svg --style lines");
+    command->footer(
+        "Examples:\n"
+        "  vera draw bracket.obj -o bracket.svg\n"
+        "  vera draw scene.vera -o scene.pdf --page 120\n"
+        "  vera draw scene.vera -o outlines.svg --style lines --line silhouette:width=3\n"
+        "  vera draw scene.vera -o plan.dxf --style hidden-lines --page 200");
 
     command->callback([request, &console] { draw(*request, console); });
 }

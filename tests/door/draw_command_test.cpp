@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -49,6 +50,7 @@ TEST(DrawCommand, WritesEveryFormatByExtensionAndByName) {
         {"a.pdf", "%PDF-1.7\n", "%%EOF\n"},
         {"a.EPS", "%!PS-Adobe-3.0 EPSF-3.0\n", "%%EOF\n"},
         {"a.picture --format svg", "<?xml ", "</svg>\n"},
+        {"a.dxf --style lines", "999\na\n", "0\nEOF\n"},
     };
 
     for (const auto& [output, begin, end] : files) {
@@ -64,7 +66,7 @@ TEST(DrawCommand, WritesEveryFormatByExtensionAndByName) {
     const std::string svg = folder.read("a.svg");
     EXPECT_TRUE(holds(svg, "width=\"40\" height=\"30\" viewBox=\"0 0 40 30\"")) << svg;
     EXPECT_TRUE(holds(svg, "<title>a</title>")) << svg;
-    EXPECT_EQ(folder.file_count(), 5U);
+    EXPECT_EQ(folder.file_count(), 6U);
 }
 
 TEST(DrawCommand, GivesEachPrimitiveItsNumberForColourInTheOrderOfTheText) {
@@ -110,6 +112,46 @@ TEST(DrawCommand, DrawsSilhouettesAndCreasesAsLayersOfLines) {
     EXPECT_EQ(count_of(svg, "<path "), 2U) << svg;
 }
 
+TEST(DrawCommand, DashesWhatIsHiddenAndDrawsLinesAsAsked) {
+    const ScratchFolder folder;
+    // A wall before half of another.
+    folder.write(
+        "a.vera",
+        view + "P4 -1 1 1  0 1 1  0 3 1  -1 3 1\nP4 -1 1.5 0  1 1.5 0  1 2.5 0  -1 2.5 0\n");
+    const std::string command =
+        "draw a.vera -o a.svg --line silhouette:width=3 --line hidden:color=#c08000,dash=5-2.5 "
+        "--line silhouette:color=#123 --style ";
+    const ProgramRun run = run_vera(folder, command + "hidden-lines");
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const std::string svg = folder.read("a.svg");
+    EXPECT_TRUE(holds(svg, ".silhouette-lines{stroke:#123;stroke-width:3}\n")) << svg;
+    EXPECT_TRUE(holds(
+        svg,
+        ".hidden-lines{stroke:#c08000;stroke-width:.5;stroke-linecap:butt;"
+        "stroke-dasharray:5 2.5}\n"))
+        << svg;
+    const std::size_t hidden = svg.find("<g id=\"hidden-lines\"");
+    ASSERT_NE(hidden, std::string::npos) << svg;
+    EXPECT_LT(hidden, svg.find("<g id=\"silhouette-lines\"")) << svg;
+    ASSERT_EQ(run_vera(folder, command + "lines").exit_code, 0);
+    EXPECT_FALSE(holds(folder.read("a.svg"), "hidden-lines")) << folder.read("a.svg");
+}
+
+TEST(DrawCommand, DrawsACartoonInThreeTonesWithLinesOnTop) {
+    const ScratchFolder folder;
+    folder.write("a.vera", view + "SP 0 2 0 1.5\n");
+    const ProgramRun run = run_vera(folder, "draw a.vera --style toon --deviation 1 -o a.svg");
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const std::string svg = folder.read("a.svg");
+    std::vector<std::string> colors = of_outlines(svg, "fill");
+    EXPECT_GT(colors.size(), 20U);
+    std::sort(colors.begin(), colors.end());
+    colors.erase(std::unique(colors.begin(), colors.end()), colors.end());
+    // 0.35, 0.65 and 1 of 0.7.
+    EXPECT_EQ(colors, (std::vector<std::string>{"#3e3e3e", "#747474", "#b3b3b3"})) << svg;
+    EXPECT_LT(svg.find("<g id=\"fills\""), svg.find("<g id=\"silhouette-lines\"")) << svg;
+}
+
 TEST(DrawCommand, DrawsASphereAsOneClosedLine) {
     const ScratchFolder folder;
     folder.write("a.vera", view + "SP 0 2 0 1.5\n");
@@ -151,10 +193,12 @@ TEST(DrawCommand, GivesTheSameFileInEveryRunForAnyNumberOfThreads) {
     const ScratchFolder folder;
     // They pass through each other, so that cutting is among the work that is shared out.
     folder.write("a.vera", view + "SP -0.5 1.7 0 1\nSP 0.5 2.1 0.3 1\nSP 0 1 0.4 0.9\n");
-    for (const char* style : {"flat", "ids", "lines"})
-        for (const char* format : {"svg", "pdf", "eps"}) {
-            const std::string command =
-                std::string("draw a.vera --deviation 1 --style ") + style + " --format " + format;
+    for (const std::string_view style : {"flat", "ids", "lines", "hidden-lines", "toon"})
+        for (const std::string_view format : {"svg", "pdf", "eps", "dxf"}) {
+            if (format == "dxf" && !style.ends_with("lines"))
+                continue;
+            const std::string command = "draw a.vera --deviation 1 --style " + std::string(style)
+                + " --format " + std::string(format);
             ASSERT_EQ(run_vera(folder, command + " --threads 1 -o 1").exit_code, 0) << command;
             const std::string expected = folder.read("1");
             for (const char* threads : {"1", "2", "7"}) {
@@ -175,17 +219,43 @@ TEST(DrawCommand, RefusesWhatItCannotUnderstand) {
         {"", "--output is required"},
         {"-o -", "a drawing on standard output needs --format, as in --format svg"},
         {"-o a.xyz",
-         "cannot tell the format of 'a.xyz' by its name; give --format with one of svg, pdf, eps"},
+         "cannot tell the format of 'a.xyz' by its name; give --format with one of svg, pdf, eps, "
+         "dxf"},
         {"-o a.png",
          "cannot tell the format of 'a.png' by its name; give --format with one of svg, pdf, eps, "
+         "dxf, "
          "or make a picture with 'vera render'"},
         {"-o a.vsg",
          "cannot tell the format of 'a.vsg' by its name; did you mean 'a.svg'? Else give --format "
-         "with one of svg, pdf, eps"},
-        {"-o a.svg --format png", "--format does not know 'png'; it knows svg, pdf, eps"},
+         "with one of svg, pdf, eps, dxf"},
+        {"-o a.svg --format png", "--format does not know 'png'; it knows svg, pdf, eps, dxf"},
+        {"-o a.dxf --style toon",
+         "DXF is for lines, and --style toon fills areas; take --style lines or hidden-lines, or "
+         "another format"},
+        {"-o a.svg --line crease:width=2",
+         "--line is for styles with lines, and --style flat has none; take --style lines, "
+         "hidden-lines or toon"},
+        {"-o a.svg --style lines --line hiden:width=2",
+         "--line knows no class of lines 'hiden'; did you mean 'hidden'? Else it knows hidden, "
+         "shadow, intersection, crease, silhouette"},
+        {"-o a.svg --style lines --line hidden",
+         "--line takes a class and what is to hold for it, as in "
+         "silhouette:width=2,color=#333,dash=4-2; found 'hidden'"},
+        {"-o a.svg --style lines --line hidden:colour=#000",
+         "--line knows no property of lines 'colour'; did you mean 'color'? Else it knows width, "
+         "color, dash"},
+        {"-o a.svg --style lines --line hidden:width=0",
+         "--line takes a width from 0.01 to 1000 pixels; found '0'"},
+        {"-o a.svg --style lines --line hidden:color=#1234",
+         "--line takes a color as #rgb or #rrggbb, such as #c00; found '#1234'"},
+        {"-o a.svg --style lines --line hidden:dash=4--2",
+         "--line takes dashes and gaps from 0.01 to 1000 pixels, as in dash=4-2, or dash=none; "
+         "found '4--2'"},
         {"-o a.svg --style lnes",
-         "--style takes flat, ids or lines; found 'lnes'; did you mean 'lines'?"},
-        {"-o a.svg --style toon", "--style takes flat, ids or lines; found 'toon'"},
+         "--style takes flat, ids, lines, hidden-lines or toon; found 'lnes'; did you mean "
+         "'lines'?"},
+        {"-o a.svg --style hatched",
+         "--style takes flat, ids, lines, hidden-lines or toon; found 'hatched'"},
         {"-o a.svg --precision 0", "--precision takes a number from 1e-06 to 1; found 0"},
         {"-o a.svg --precision 2", "--precision takes a number from 1e-06 to 1; found 2"},
         {"-o a.svg --precision nan", "--precision takes a number from 1e-06 to 1; found nan"},
@@ -267,7 +337,8 @@ TEST(DrawCommand, ShowsExamplesInItsHelp) {
     for (const char* example :
          {"Examples:\n  vera draw bracket.obj -o bracket.svg\n",
           "  vera draw scene.vera -o scene.pdf --page 120\n",
-          "  vera draw scene.vera -o outlines.svg --style lines"})
+          "  vera draw scene.vera -o outlines.svg --style lines --line silhouette:width=3\n",
+          "  vera draw scene.vera -o plan.dxf --style hidden-lines --page 200"})
         EXPECT_TRUE(holds(run.out, example)) << run.out;
 }
 

@@ -21,7 +21,8 @@ TEST(WriteDrawing, WritesTheSameBytesTwice) {
     const std::pair<DrawingFormat, std::string> expected[] = {
         {DrawingFormat::svg, written(write_svg, sample_drawing())},
         {DrawingFormat::pdf, written(write_pdf, sample_drawing())},
-        {DrawingFormat::eps, written(write_eps, sample_drawing())}};
+        {DrawingFormat::eps, written(write_eps, sample_drawing())},
+        {DrawingFormat::dxf, written(write_dxf, sample_drawing())}};
     for (const auto& [format, bytes] : expected) {
         write_drawing(sample_drawing(), folder / "a", format);
         std::ifstream file(folder / "a", std::ios::binary);
@@ -47,7 +48,7 @@ TEST(DrawingFormats, AreKnownByExtensionAndNameInAnyCase) {
         EXPECT_EQ(drawing_format_from_extension(other), std::nullopt) << other;
     EXPECT_EQ(drawing_format_from_name("Svg"), DrawingFormat::svg);
     EXPECT_EQ(drawing_format_from_name(""), std::nullopt);
-    EXPECT_EQ(drawing_format_names(), "svg, pdf, eps");
+    EXPECT_EQ(drawing_format_names(), "svg, pdf, eps, dxf");
 }
 
 } // namespace

@@ -28,11 +28,11 @@ inline Drawing sample_drawing() {
          .rings = {{{11, 1}, {21, 1}, {21, 11}, {11, 11}}}},
         {.color = {0, 0, 255}, .rings = {{{0.5, -0.25}, {0.75, 0.5}, {1.5, 0.75}}}}};
     drawing.strokes = {
-        {.line_class = "hidden", .points = {{0, 0}, {10, 5}}},
-        {.line_class = "silhouette",
+        {.line_class = LineClass::hidden, .points = {{0, 0}, {10, 5}}},
+        {.line_class = LineClass::silhouette,
          .points = {{1, 1}, {21, 1}, {21, 11}, {1, 11}},
          .closed = true},
-        {.line_class = "hidden", .points = {{5, 5}, {5, 10}}}};
+        {.line_class = LineClass::hidden, .points = {{5, 5}, {5, 10}}}};
     return drawing;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "vera/drawing/elliptic_arc.h"
 #include "vera/drawing/snapped_path.h"
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <cstddef>
@@ -149,6 +151,149 @@ TEST(SnappedLine, NeedsTwoPoints) {
     EXPECT_FALSE(
         snapped_line({.points = {{1, 1}, {9, 1}, {1, 1}}, .closed = true}, lattice)->closed);
     EXPECT_EQ(snapped_line({.points = {{1, 1}, {9, 1}, {1, 1}}}, lattice)->points.size(), 3U);
+}
+
+TEST(SnappedLine, KeepsArcsWithTheirPointsWhateverRoundingMakesEqual) {
+    const Lattice lattice(1);
+    const DrawingEllipse circle = {{10, 10}, {5, 0}, {0, 5}};
+    // The first segment vanishes, the arc behind it stays, and a small one goes.
+    const auto line = snapped_line(
+        {.points = {{14.9, 10.1}, {15, 10}, {10, 15}, {9.9, 15}, {0, 15}},
+         .arcs = {{1, circle, 0, 90}, {2, circle, 90, 91}}},
+        lattice);
+    ASSERT_TRUE(line);
+    EXPECT_EQ(line->points, (std::vector<SnappedPoint>{{15, 10}, {10, 15}, {0, 15}}));
+    ASSERT_EQ(line->arcs.size(), 1U);
+    EXPECT_EQ(line->arcs[0].segment, 0U);
+
+    // Whole ones, closed or but for a gap that is less than the precision.
+    for (const bool closed : {true, false}) {
+        const auto whole = snapped_line(
+            {.points = closed ? std::vector<DrawingPoint>{{15, 10}}
+                              : std::vector<DrawingPoint>{{15, 10}, {15, 9.9}},
+             .closed = closed,
+             .arcs = {{0, circle, 0, closed ? 360.0 : 359.0}}},
+            lattice);
+        ASSERT_TRUE(whole) << closed;
+        EXPECT_EQ(whole->arcs.size(), 1U) << closed;
+    }
+    EXPECT_FALSE(
+        snapped_line({.points = {{15, 10}, {15, 10.1}}, .arcs = {{0, circle, 0, 1}}}, lattice));
+    // Of a slice, the point that rounding makes equal to the first one goes, with the arc to it.
+    const auto slice = snapped_line(
+        {.points = {{10, 10}, {15, 10}, {10, 15}, {10.1, 10}},
+         .closed = true,
+         .arcs = {{1, circle, 0, 90}}},
+        lattice);
+    ASSERT_TRUE(slice);
+    EXPECT_EQ(slice->points, (std::vector<SnappedPoint>{{10, 10}, {15, 10}, {10, 15}}));
+    EXPECT_TRUE(slice->closed);
+}
+
+/// The parts of one path of arcs alone, as the SVG grammar has them.
+struct SvgArc {
+    double rx = 0;
+    double ry = 0;
+    double turn = 0;
+    double large = 0;
+    double sweep = 0;
+    DrawingPoint from;
+    DrawingPoint to;
+};
+
+std::vector<SvgArc> svg_arcs(const std::string& text) {
+    std::vector<double> numbers;
+    std::string digits;
+    for (const char letter : text + ' ') {
+        const bool goes_on = std::isdigit(letter) || (letter == '-' && digits.empty())
+            || (letter == '.' && digits.find('.') == std::string::npos);
+        if (!goes_on && !digits.empty()) {
+            numbers.push_back(std::stod(digits));
+            digits.clear();
+        }
+        if (std::isdigit(letter) || letter == '-' || letter == '.')
+            digits += letter;
+    }
+    std::vector<SvgArc> arcs;
+    DrawingPoint at = {numbers[0], numbers[1]};
+    for (std::size_t i = 2; i + 6 < numbers.size(); i += 7) {
+        const DrawingPoint to = {at.x + numbers[i + 5], at.y + numbers[i + 6]};
+        arcs.push_back(
+            {numbers[i], numbers[i + 1], numbers[i + 2], numbers[i + 3], numbers[i + 4], at, to});
+        at = to;
+    }
+    return arcs;
+}
+
+/// The middle of an arc by its ends (Scalable Vector Graphics 1.1, F.6.5).
+DrawingPoint middle_of(const SvgArc& arc) {
+    const double turn = arc.turn * 3.14159265358979 / 180;
+    const double c = std::cos(turn);
+    const double s = std::sin(turn);
+    const double dx = (arc.from.x - arc.to.x) / 2;
+    const double dy = (arc.from.y - arc.to.y) / 2;
+    // Where the ellipse is the unit circle.
+    const double x = (c * dx + s * dy) / arc.rx;
+    const double y = (c * dy - s * dx) / arc.ry;
+    const double half = x * x + y * y; // of the chord, squared
+    const double off = std::sqrt(std::max(0.0, 1 - half)) * (arc.large == arc.sweep ? -1 : 1);
+    const double size = std::sqrt(half);
+    const double center_x = off * y / size;
+    const double center_y = -off * x / size;
+    // From the middle of the chord, away from the center by a radius: these arcs are small.
+    const double away = std::sqrt(center_x * center_x + center_y * center_y);
+    const double mx = center_x - center_x / away;
+    const double my = center_y - center_y / away;
+    return {
+        (arc.from.x + arc.to.x) / 2 + c * arc.rx * mx - s * arc.ry * my,
+        (arc.from.y + arc.to.y) / 2 + s * arc.rx * mx + c * arc.ry * my};
+}
+
+TEST(SvgPathData, HasArcsThatLieOnTheirEllipse) {
+    std::mt19937 random(1988);
+    const double sizes[] = {3, 20, 20.001, 150};
+    for (int round = 0; round < 2000; ++round) {
+        const double a = sizes[random() % 4];
+        const double b = std::min(a, sizes[random() % 4]);
+        const double turn = 15 * static_cast<double>(random() % 24);
+        const DrawingPoint to = {
+            std::cos(turn * 3.14159265358979 / 180), std::sin(turn * 3.14159265358979 / 180)};
+        const DrawingEllipse ellipse = {{50, 40}, {a * to.x, a * to.y}, {-b * to.y, b * to.x}};
+        const double sweep = (10 + static_cast<double>(random() % 351)) * (round % 2 * 2 - 1);
+        const DrawingArc arc = {0, ellipse, turn / 2, turn / 2 + sweep};
+        const Lattice lattice(0.01);
+        const auto line = snapped_line(
+            {.points = {point_at(ellipse, arc.begin_degrees), point_at(ellipse, arc.end_degrees)},
+             .arcs = {arc}},
+            lattice);
+        ASSERT_TRUE(line);
+        const auto arcs = svg_arcs(svg_path_data({&*line, 1}, 2));
+        const auto count = static_cast<std::size_t>(std::ceil(std::abs(sweep) / 90));
+        ASSERT_EQ(arcs.size(), count) << round;
+        for (std::size_t i = 0; i < count; ++i) {
+            const double at = (static_cast<double>(i) + 0.5) / static_cast<double>(count);
+            // Rounding moves each end, and the center by as much again; along flat ellipses by
+            // more.
+            const DrawingPoint middle = middle_of(arcs[i]);
+            const double off =
+                distance(middle, point_at(ellipse, nearest_degrees(ellipse, middle)));
+            EXPECT_LE(off, 0.02 + 0.003 * a / b) << round << ' ' << i;
+            const DrawingPoint expected = point_at(ellipse, arc.begin_degrees + at * sweep);
+            EXPECT_LE(distance(middle, expected), 0.05 + 0.02 * a / b) << round << ' ' << i;
+            EXPECT_EQ(arcs[i].sweep, sweep > 0 ? 1 : 0);
+            EXPECT_EQ(arcs[i].large, 0);
+        }
+    }
+}
+
+TEST(SvgPathData, WritesAnArcBetweenLines) {
+    const DrawingEllipse ellipse = {{10, 10}, {0, 5}, {-2, 0}};
+    const auto line = snapped_line(
+        {.points = {{0, 15}, {10, 15}, {8, 10}, {0, 10}},
+         .closed = true,
+         .arcs = {{1, ellipse, 0, 90}}},
+        Lattice(0.1));
+    EXPECT_EQ(svg_path_data({&*line, 1}, 1), "m0 15h10a5 2 90 0 1-2-5h-8z");
 }
 
 } // namespace

@@ -78,7 +78,7 @@ TEST(WriteSvg, LeavesNoTraceOfAGroupOfWhichNothingIsLeft) {
          .group = "gone",
          .rings = {{{0, 0}, {1, 0}, {0.5, 0.1}}},
          .seams = {{{0, 0}, {1, 0}}}}};
-    drawing.strokes = {{.line_class = "hidden", .points = {{0, 0}}}};
+    drawing.strokes = {{.line_class = LineClass::hidden, .points = {{0, 0}}}};
     EXPECT_EQ(written(write_svg, drawing, {.precision = 1}), written(write_svg, {}));
 }
 
@@ -93,17 +93,24 @@ TEST(WriteSvg, GivesEveryElementAnIdOfItsOwn) {
     EXPECT_THAT(text, HasSubstr("<g id=\"fills\" inkscape:groupmode"));
 }
 
-TEST(WriteSvg, DrawsLinesOfAnUnknownClassAnyhow) {
+TEST(WriteSvg, PaintsClassesInTheirOrderAndThoseWithoutAStyleAnyhow) {
     Drawing drawing;
     drawing.strokes = {
-        {.points = {{0, 0}, {1, 2}}}, {.line_class = "a{b", .points = {{0, 0}, {1, 1}}}};
-    const std::string text = written(write_svg, drawing);
-    EXPECT_THAT(text, HasSubstr(".lines{stroke:#000;stroke-width:1}\n"));
-    EXPECT_THAT(text, HasSubstr(".a-b-lines{stroke:#000;stroke-width:1}\n"));
-    EXPECT_THAT(
-        text,
-        HasSubstr(
-            "class=\"line a-b-lines\" inkscape:groupmode=\"layer\" inkscape:label=\"A{b lines\""));
+        {.line_class = LineClass::silhouette, .points = {{0, 0}, {1, 2}}},
+        {.line_class = LineClass::crease, .points = {{0, 0}, {1, 1}}},
+        {.line_class = LineClass::hidden, .points = {{0, 0}, {2, 1}}}};
+    const std::string text = written(
+        write_svg,
+        drawing,
+        {.line_styles = {{.line_class = LineClass::crease, .color = {255, 0, 0}, .width = 3}}});
+    EXPECT_THAT(text, HasSubstr(".silhouette-lines{stroke:#000;stroke-width:1}\n"));
+    EXPECT_THAT(text, HasSubstr(".crease-lines{stroke:#f00;stroke-width:3}\n"));
+    const std::size_t hidden = text.find("<g id=\"hidden-lines\"");
+    const std::size_t crease = text.find("<g id=\"crease-lines\"");
+    const std::size_t silhouette = text.find("<g id=\"silhouette-lines\"");
+    EXPECT_LT(hidden, crease);
+    EXPECT_LT(crease, silhouette);
+    EXPECT_NE(silhouette, std::string::npos);
 }
 
 TEST(WriteSvgDeathTest, RefusesNumbersThatAreNotFinite) {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "vera/drawing/line_class.h"
+
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -41,16 +44,37 @@ struct FilledOutline {
     std::vector<std::vector<DrawingPoint>> seams = {};
 };
 
-/// A line. Its class says why it is drawn ("silhouette", "crease", "hidden") and decides how.
+/// The points center + cos(a) major + sin(a) minor.
+struct DrawingEllipse {
+    DrawingPoint center = {};
+    DrawingPoint major = {}; ///< from the center to the farthest point
+    DrawingPoint minor = {}; ///< a quarter turn from major, from x towards y, and no longer
+
+    friend bool operator==(const DrawingEllipse&, const DrawingEllipse&) = default;
+};
+
+/// A part of an ellipse, from one angle to the other; backward where the end is the smaller one.
+struct DrawingArc {
+    std::size_t segment = 0; ///< of a Stroke: it leads from the point of that number to the next
+    DrawingEllipse ellipse = {};
+    double begin_degrees = 0;
+    double end_degrees = 0; ///< at most a whole turn from the beginning
+
+    friend bool operator==(const DrawingArc&, const DrawingArc&) = default;
+};
+
+/// A line. Its class says why it is drawn and decides how. Its segments, from each point to the
+/// next and, where it is closed, from the last to the first, are straight but for the arcs, whose
+/// ends are at the points. A whole ellipse is closed and has one point and one arc.
 struct Stroke {
-    std::string line_class = {};
+    LineClass line_class = LineClass::silhouette;
     std::vector<DrawingPoint> points = {};
     bool closed = false;
+    std::vector<DrawingArc> arcs = {}; ///< by segment, each segment at most once
 };
 
 /// A vector picture: the background, on it the outlines in their order, on them the lines, one
-/// class after the other in the order in which the classes first occur. Texts are UTF-8; what is
-/// not is replaced.
+/// class after the other. Texts are UTF-8; what is not is replaced.
 struct Drawing {
     double width = 1; ///< in pixels, positive
     double height = 1;

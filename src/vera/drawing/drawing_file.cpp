@@ -12,7 +12,10 @@ namespace vera {
 namespace {
 
 constexpr std::pair<std::string_view, DrawingFormat> format_of_name[] = {
-    {"svg", DrawingFormat::svg}, {"pdf", DrawingFormat::pdf}, {"eps", DrawingFormat::eps}};
+    {"svg", DrawingFormat::svg},
+    {"pdf", DrawingFormat::pdf},
+    {"eps", DrawingFormat::eps},
+    {"dxf", DrawingFormat::dxf}};
 
 char small_letter(char letter) {
     return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
@@ -43,12 +46,11 @@ std::string drawing_format_names() {
 
 std::vector<LineStyle> default_line_styles() {
     return {
-        {.line_class = "silhouette", .width = 1.5},
-        {.line_class = "crease", .width = 0.75},
-        {.line_class = "intersection", .width = 0.75},
-        {.line_class = "visible", .width = 0.75},
-        {.line_class = "shadow", .width = 0.5},
-        {.line_class = "hidden", .width = 0.5, .dashes = {3, 2}}};
+        {.line_class = LineClass::silhouette, .width = 1.5},
+        {.line_class = LineClass::crease, .width = 0.75},
+        {.line_class = LineClass::intersection, .width = 0.75},
+        {.line_class = LineClass::shadow, .width = 0.5},
+        {.line_class = LineClass::hidden, .width = 0.5, .dashes = {3, 2}}};
 }
 
 void write_drawing(
@@ -76,6 +78,9 @@ void write_drawing(
         break;
     case DrawingFormat::eps:
         write_eps(drawing, settings, bytes);
+        break;
+    case DrawingFormat::dxf:
+        write_dxf(drawing, settings, bytes);
         break;
     }
     file.write(bytes);

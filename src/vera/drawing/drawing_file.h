@@ -13,12 +13,13 @@ namespace vera {
 
 class OutputFile;
 
-enum class DrawingFormat { svg, pdf, eps };
+enum class DrawingFormat { svg, pdf, eps, dxf };
 
-/// The format that a file's extension stands for, in capitals or not: .svg, .pdf, .eps.
+/// The format that a file's extension stands for, in capitals or not: .svg, .pdf, .eps,
+/// .dxf.
 std::optional<DrawingFormat> drawing_format_from_extension(const std::filesystem::path& path);
 
-/// The format of a name that a user may write: svg, pdf, eps; in capitals or not.
+/// The format of a name that a user may write: svg, pdf, eps, dxf; in capitals or not.
 std::optional<DrawingFormat> drawing_format_from_name(std::string_view name);
 
 /// The names, one a format, as a message lists them.
@@ -26,13 +27,13 @@ std::string drawing_format_names();
 
 /// How the lines of one class are drawn. Lengths are in pixels of the picture.
 struct LineStyle {
-    std::string line_class = {};
+    LineClass line_class = LineClass::silhouette;
     DrawingColor color = {};
     double width = 1;
     std::vector<double> dashes = {}; ///< lengths of dash, gap, dash ...; empty: one unbroken line
 };
 
-/// Silhouettes thick, creases, intersections and other visible lines thinner, shadow boundaries
+/// One for each class: silhouettes thick, creases and intersections thinner, shadow boundaries
 /// thin, hidden lines thin and dashed.
 std::vector<LineStyle> default_line_styles();
 
@@ -52,8 +53,8 @@ struct DrawingSettings {
 };
 
 // Each writer appends the bytes of a whole file. The same drawing and settings give the same bytes.
-// Points that coincide when they are rounded are one; rings of fewer than three points and lines
-// of fewer than two are left out. A number that is not finite is a broken invariant.
+// Points that coincide when they are rounded are one; rings of fewer than three points, and lines
+// without length, are left out. A number that is not finite is a broken invariant.
 
 /// An SVG with a layer for the outlines and one for each class of lines, as Inkscape knows them,
 /// and a group with an id for each group of outlines.
@@ -64,6 +65,10 @@ void write_pdf(const Drawing& drawing, const DrawingSettings& settings, std::str
 
 /// An Encapsulated PostScript of level 2.
 void write_eps(const Drawing& drawing, const DrawingSettings& settings, std::string& bytes);
+
+/// The lines alone, as an ASCII DXF of AutoCAD 2000 (AC1015) with a layer for each class: y upward
+/// from the picture's lower border, in millimetres where the page has a width, else in pixels.
+void write_dxf(const Drawing& drawing, const DrawingSettings& settings, std::string& bytes);
 
 /// Writes the drawing to a file, whole or not at all; "-" is standard output. Throws
 /// std::system_error, which names the path, when it cannot be written.

@@ -38,7 +38,8 @@ void write_eps(const Drawing& drawing, const DrawingSettings& settings, std::str
         "/rg{{setrgbcolor}}def/RG{{setrgbcolor}}def\n"
         "/w{{setlinewidth}}def/J{{setlinecap}}def/j{{setlinejoin}}def/d{{setdash}}def\n"
         "/re{{4 2 roll moveto 1 index 0 rlineto 0 exch rlineto neg 0 rlineto closepath}}def\n"
-        "/m{{moveto}}def/l{{lineto}}def/h{{closepath}}def/f{{fill}}def/S{{stroke}}def\n"
+        "/m{{moveto}}def/l{{lineto}}def/c{{curveto}}def/h{{closepath}}def/f{{fill}}def/"
+        "S{{stroke}}def\n"
         "%%EndProlog\n"
         // Lines along the picture's border may not paint beyond it.
         "gsave\n0 0 {} {} rectclip\n",

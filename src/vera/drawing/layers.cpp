@@ -4,30 +4,42 @@
 #include "vera/base/check.h"
 #include "vera/drawing/seams.h"
 
+#include <array>
 #include <cmath>
 #include <cstddef>
-#include <string_view>
-#include <unordered_map>
+#include <optional>
+#include <span>
 #include <utility>
 
 namespace vera::detail {
 
 namespace {
 
-LineStyle style_of(const std::string& line_class, const DrawingSettings& settings) {
+LineStyle style_of(LineClass line_class, const DrawingSettings& settings) {
     for (const LineStyle& style : settings.line_styles)
         if (style.line_class == line_class)
             return style;
     return {.line_class = line_class};
 }
 
-std::string layer_name(const std::string& line_class) {
-    if (line_class.empty())
-        return "Lines";
-    std::string name = line_class + " lines";
-    if (name.front() >= 'a' && name.front() <= 'z')
-        name.front() = static_cast<char>(name.front() - 'a' + 'A');
-    return name;
+std::string layer_name(LineClass line_class) {
+    std::string name(name_of(line_class));
+    name.front() = static_cast<char>(name.front() - 'a' + 'A');
+    return name + " lines";
+}
+
+std::vector<LineLayer> line_layers(
+    std::span<const Stroke> strokes, const DrawingSettings& settings, const Lattice& lattice) {
+    std::array<std::vector<SnappedPath>, line_class_names.size()> of_class;
+    for (const Stroke& stroke : strokes)
+        if (std::optional<SnappedPath> line = snapped_line(stroke, lattice))
+            of_class[static_cast<std::size_t>(stroke.line_class)].push_back(std::move(*line));
+    std::vector<LineLayer> layers;
+    for (std::size_t i = 0; i < of_class.size(); ++i)
+        if (const auto line_class = static_cast<LineClass>(i); !of_class[i].empty())
+            layers.push_back(
+                {layer_name(line_class), style_of(line_class, settings), std::move(of_class[i])});
+    return layers;
 }
 
 } // namespace
@@ -49,17 +61,7 @@ Layers layers(const Drawing& drawing, const DrawingSettings& settings, const Lat
     for (FilledPath& path : result.fills)
         draw_ends_back(path.seams, path.rings, passed, seam_width);
 
-    std::unordered_map<std::string_view, std::size_t> layer_of;
-    for (const Stroke& stroke : drawing.strokes) {
-        std::optional<SnappedPath> line = snapped_line(stroke, lattice);
-        if (!line)
-            continue;
-        const auto [layer, is_new] = layer_of.try_emplace(stroke.line_class, result.lines.size());
-        if (is_new)
-            result.lines.push_back(
-                {layer_name(stroke.line_class), style_of(stroke.line_class, settings), {}});
-        result.lines[layer->second].lines.push_back(std::move(*line));
-    }
+    result.lines = line_layers(drawing.strokes, settings, lattice);
     return result;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/drawing/page_content.h"
 
+#include "vera/drawing/elliptic_arc.h"
+
 #include <cstdint>
 #include <iterator>
 #include <optional>
@@ -73,15 +75,37 @@ private:
 
     void write_paths(std::span<const SnappedPath> paths) {
         for (const SnappedPath& path : paths) {
-            char operation = 'm';
-            for (const SnappedPoint point : path.points) {
-                fmt::format_to(
-                    std::back_inserter(text_), "{} {} {}\n", point.x, point.y, operation);
-                operation = 'l';
-            }
+            write_point(path.points.front());
+            text_ += "m\n";
+            for_each_segment(
+                path,
+                [&](SnappedPoint point) {
+                    write_point(point);
+                    text_ += "l\n";
+                },
+                [&](const DrawingArc& arc, SnappedPoint point) { write_arc(arc, point); });
             if (path.closed)
                 text_ += "h\n";
         }
+    }
+
+    /// As curves that lie no farther off it than half a unit.
+    void write_arc(const DrawingArc& arc, SnappedPoint last) {
+        const int parts = bezier_parts(arc, 0.5);
+        const auto angle = [&](int part) {
+            return arc.begin_degrees + (arc.end_degrees - arc.begin_degrees) * part / parts;
+        };
+        for (int i = 0; i < parts; ++i) {
+            const auto [first, second] = bezier_controls(arc.ellipse, angle(i), angle(i + 1));
+            write_point(rounded_point(first));
+            write_point(rounded_point(second));
+            write_point(i + 1 == parts ? last : rounded_point(point_at(arc.ellipse, angle(i + 1))));
+            text_ += "c\n";
+        }
+    }
+
+    void write_point(SnappedPoint point) {
+        fmt::format_to(std::back_inserter(text_), "{} {} ", point.x, point.y);
     }
 
     std::string length(double pixels) const {

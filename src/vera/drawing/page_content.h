@@ -19,7 +19,7 @@ struct LayerMarks {
 std::vector<std::string> layer_names(const Layers& layers);
 
 /// The drawing in the operators of a PDF page, which an EPS defines for itself (q cm rg RG w J j d
-/// re m l h f S Q). Coordinates are whole numbers, in units of the lattice.
+/// re m l c h f S Q). Coordinates are whole numbers, in units of the lattice.
 std::string page_content(
     const Drawing& drawing,
     const DrawingSettings& settings,

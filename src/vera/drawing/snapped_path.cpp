@@ -2,7 +2,9 @@
 #include "vera/drawing/snapped_path.h"
 
 #include "vera/base/check.h"
+#include "vera/drawing/elliptic_arc.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -32,8 +34,10 @@ public:
         write(path.points.front().y - at_.y);
         implied_ = 'l';
         at_ = path.points.front();
-        for (const SnappedPoint point : std::span(path.points).subspan(1))
-            write_line_to(point);
+        for_each_segment(
+            path,
+            [&](SnappedPoint point) { write_line_to(point); },
+            [&](const DrawingArc& arc, SnappedPoint point) { write_arc_to(arc, point); });
         implied_ = '\0';
         if (path.closed) {
             text_ += 'z';
@@ -59,6 +63,32 @@ private:
         at_ = point;
     }
 
+    /// In parts of 90 degrees at most: the center, which is found from the ends, is then off by no
+    /// more than these, and no part is the larger one of two.
+    void write_arc_to(const DrawingArc& arc, SnappedPoint point) {
+        constexpr int angle_digits = 4;
+        const double sweep = arc.end_degrees - arc.begin_degrees;
+        const double a = distance(arc.ellipse.major, {});
+        const double b = distance(arc.ellipse.minor, {});
+        double turn = rounded(a) == rounded(b) ? 0 : direction_degrees(arc.ellipse.major);
+        turn = turn > 90 + 1e-6 ? turn - 180 : turn < -90 + 1e-6 ? turn + 180 : turn;
+        const int parts = std::max(1, static_cast<int>(std::ceil(std::abs(sweep) / 90 - 1e-9)));
+        for (int i = 1; i <= parts; ++i) {
+            const SnappedPoint to = i == parts
+                ? point
+                : rounded_point(point_at(arc.ellipse, arc.begin_degrees + sweep * i / parts));
+            begin('a');
+            write(rounded(a));
+            write(rounded(b));
+            write(decimal(turn, angle_digits));
+            write("0");
+            write(sweep > 0 ? "1" : "0");
+            write(to.x - at_.x);
+            write(to.y - at_.y);
+            at_ = to;
+        }
+    }
+
     void begin(char command) {
         if (command == implied_)
             return;
@@ -67,8 +97,9 @@ private:
         last_ = Last::command;
     }
 
-    void write(std::int64_t units) {
-        const std::string number = decimal(units, digits_);
+    void write(std::int64_t units) { write(decimal(units, digits_)); }
+
+    void write(const std::string& number) {
         const bool ends_the_last = number.front() == '-' || last_ == Last::command
             || (number.front() == '.' && last_ == Last::fraction);
         if (!ends_the_last)
@@ -101,6 +132,20 @@ SnappedPoint Lattice::snapped(DrawingPoint point) const {
     return {rounded(point.x * units_per_pixel_), rounded(point.y * units_per_pixel_)};
 }
 
+DrawingArc Lattice::in_units(const DrawingArc& arc) const {
+    const auto scaled = [&](DrawingPoint point) {
+        return DrawingPoint{point.x * units_per_pixel_, point.y * units_per_pixel_};
+    };
+    DrawingArc result = arc;
+    result.ellipse = {
+        scaled(arc.ellipse.center), scaled(arc.ellipse.major), scaled(arc.ellipse.minor)};
+    return result;
+}
+
+SnappedPoint rounded_point(DrawingPoint in_units) {
+    return {rounded(in_units.x), rounded(in_units.y)};
+}
+
 std::vector<SnappedPoint>
 snapped_points(std::span<const DrawingPoint> points, const Lattice& lattice) {
     std::vector<SnappedPoint> snapped;
@@ -125,12 +170,35 @@ std::vector<SnappedPath> snapped_rings(const FilledOutline& fill, const Lattice&
 }
 
 std::optional<SnappedPath> snapped_line(const Stroke& stroke, const Lattice& lattice) {
-    SnappedPath line = {snapped_points(stroke.points, lattice), stroke.closed};
-    while (line.closed && line.points.size() > 1 && line.points.back() == line.points.front())
-        line.points.pop_back();
-    if (line.points.size() < 2)
+    if (stroke.points.empty())
         return std::nullopt;
-    if (line.points.size() == 2)
+    SnappedPath line = {{lattice.snapped(stroke.points.front())}, stroke.closed, {}};
+    auto arc = stroke.arcs.begin();
+    const std::size_t segments = stroke.points.size() - (stroke.closed ? 0 : 1);
+    for (std::size_t i = 0; i < segments; ++i) {
+        const bool is_arc = arc != stroke.arcs.end() && arc->segment == i;
+        const bool is_long = is_arc && std::abs(arc->end_degrees - arc->begin_degrees) >= 90;
+        const bool leads_back = i + 1 == stroke.points.size();
+        const SnappedPoint to = lattice.snapped(stroke.points[leads_back ? 0 : i + 1]);
+        if (is_long || to != line.points.back()) {
+            if (is_arc) {
+                line.arcs.push_back(lattice.in_units(*arc));
+                line.arcs.back().segment = line.points.size() - 1;
+            }
+            if (!leads_back)
+                line.points.push_back(to);
+        }
+        arc += is_arc ? 1 : 0;
+    }
+    const auto leads_back_straight = [&] {
+        return line.arcs.empty() || line.arcs.back().segment + 1 < line.points.size();
+    };
+    while (line.closed && line.points.size() > 1 && line.points.back() == line.points.front()
+           && leads_back_straight())
+        line.points.pop_back();
+    if (line.points.size() < 2 && line.arcs.empty())
+        return std::nullopt;
+    if (line.points.size() == 2 && line.arcs.empty())
         line.closed = false; // there and back is there
     return line;
 }

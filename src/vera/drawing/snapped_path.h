@@ -3,6 +3,7 @@
 
 #include "vera/drawing/drawing.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -19,12 +20,28 @@ struct SnappedPoint {
     friend bool operator==(const SnappedPoint&, const SnappedPoint&) = default;
 };
 
-/// A chain of points of which no two neighbours are equal; in a closed one, the last and the first
-/// are neighbours.
+/// A chain of points of which no two neighbours are equal, unless an arc of 90 degrees or more
+/// leads from one to the other; in a closed one, the last and the first are neighbours.
 struct SnappedPath {
     std::vector<SnappedPoint> points;
     bool closed = false;
+    std::vector<DrawingArc> arcs = {}; ///< as those of a Stroke, but in units of the Lattice
 };
+
+/// Calls line_to(SnappedPoint) or arc_to(DrawingArc, SnappedPoint) for each segment of the path in
+/// their order; of a closed one with the last, which leads back, only if it is an arc.
+template <typename LineTo, typename ArcTo>
+void for_each_segment(const SnappedPath& path, const LineTo& line_to, const ArcTo& arc_to) {
+    auto arc = path.arcs.begin();
+    for (std::size_t i = 0; i < path.points.size(); ++i) {
+        const bool is_last = i + 1 == path.points.size();
+        const SnappedPoint to = path.points[is_last ? 0 : i + 1];
+        if (arc != path.arcs.end() && arc->segment == i)
+            arc_to(*arc++, to);
+        else if (!is_last)
+            line_to(to);
+    }
+}
 
 /// The points that coordinates are rounded to: multiples of a power of a tenth of a pixel. Every
 /// point is rounded once, by itself, so that outlines that abut still do.
@@ -40,10 +57,16 @@ public:
 
     SnappedPoint snapped(DrawingPoint point) const;
 
+    /// In units, not rounded.
+    DrawingArc in_units(const DrawingArc& arc) const;
+
 private:
     int digits_ = 0;
     double units_per_pixel_ = 1;
 };
+
+/// A point in units, rounded.
+SnappedPoint rounded_point(DrawingPoint in_units);
 
 /// The points after rounding, each but once where several in a row are equal.
 std::vector<SnappedPoint>
@@ -52,7 +75,7 @@ snapped_points(std::span<const DrawingPoint> points, const Lattice& lattice);
 /// The rings of the area that are left after rounding; all closed, of three points or more.
 std::vector<SnappedPath> snapped_rings(const FilledOutline& fill, const Lattice& lattice);
 
-/// Nothing when fewer than two points are left.
+/// Nothing when no length is left.
 std::optional<SnappedPath> snapped_line(const Stroke& stroke, const Lattice& lattice);
 
 /// A number of units of 10^-digits as a decimal, with nothing that can be left out: "-.5", "12".

@@ -38,8 +38,7 @@ public:
         if (!layers_.fills.empty())
             fills_id_ = ids_.take("fills");
         for (const LineLayer& layer : layers_.lines)
-            line_ids_.push_back(ids_.take(
-                layer.style.line_class.empty() ? "lines" : layer.style.line_class + "-lines"));
+            line_ids_.push_back(ids_.take(std::string(name_of(layer.style.line_class)) + "-lines"));
     }
 
     void write() {

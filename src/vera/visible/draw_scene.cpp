@@ -11,6 +11,7 @@
 #include "vera/visible/penetrations.h"
 #include "vera/visible/projection.h"
 #include "vera/visible/shadows.h"
+#include "vera/visible/tones.h"
 #include "vera/visible/visible_map.h"
 
 #include <algorithm>
@@ -176,7 +177,11 @@ color_of(const Painted& painted, std::uint32_t face, std::span<const VisibleMap:
         std::max_element(rings.begin(), rings.end(), [&](const auto& a, const auto& b) {
             return doubled_area(painted.map, a) < doubled_area(painted.map, b);
         });
-    return as_drawn(light_of_face(painted, face, *largest));
+    const Color light = light_of_face(painted, face, *largest);
+    return as_drawn(
+        painted.settings.style == DrawingStyle::toon
+            ? toned(light, material_of(painted.scene, facet.material))
+            : light);
 }
 
 void add_fills(const Painted& painted, Drawing& drawing) {
@@ -208,9 +213,11 @@ std::optional<DrawingColor> background(const Painted& painted) {
     case DrawingStyle::ids:
         return color_of_number(0);
     case DrawingStyle::flat:
+    case DrawingStyle::toon:
         return as_drawn(firmament_color(
             painted.picture.firmament, view_ray(painted.camera, 0.5, 0.5).direction));
     case DrawingStyle::lines:
+    case DrawingStyle::hidden_lines:
         break;
     }
     return std::nullopt;
@@ -249,7 +256,8 @@ DrawnScene draw_scene(
     DrawnScene drawn;
     drawn.facets = all.triangles.size();
     drawn.cut_nearness = screen.cut_nearness;
-    const bool has_shadows = picture.shadows && settings.style != DrawingStyle::ids;
+    const bool has_shadows = settings.shadow_lines
+        || (picture.shadows && has_fills(settings.style) && settings.style != DrawingStyle::ids);
     const std::size_t steps = has_shadows ? 3 : 1;
     WholePieces whole = whole_pieces(screen, progress_part(progress, 0, steps), cancel);
     drawn.cut_rounds = static_cast<std::size_t>(whole.rounds - 1);
@@ -276,10 +284,23 @@ DrawnScene draw_scene(
     drawn.drawing.width = picture.width;
     drawn.drawing.height = picture.height;
     drawn.drawing.background = background(painted);
-    if (settings.style == DrawingStyle::lines)
-        add_strokes({scene, all, faces, screen, whole.pieces, map}, picture, drawn.drawing);
-    else
+    if (has_fills(settings.style))
         add_fills(painted, drawn.drawing);
+    if (has_lines(settings.style))
+        add_strokes(
+            {scene,
+             camera,
+             camera_map,
+             picture,
+             all,
+             faces,
+             screen,
+             whole.pieces,
+             map,
+             settings.deviation},
+            {.hidden = settings.style == DrawingStyle::hidden_lines,
+             .shadows = settings.shadow_lines},
+            drawn.drawing);
     for (std::size_t i = 0; i < map.rings.size(); ++i)
         drawn.visible_faces += i == 0 || map.rings[i].source != map.rings[i - 1].source ? 1 : 0;
     return drawn;

@@ -14,13 +14,24 @@
 namespace vera {
 
 enum class DrawingStyle : std::uint8_t {
-    flat, ///< each face, and what is in shadow of it, in the colour that the light gives its middle
-    ids,  ///< each primitive in the colour of its number, from 1 on; 0 is the background
-    lines, ///< outlines and creases alone
+    flat,         ///< each face, and what is in shadow of it, in the light of its middle
+    ids,          ///< each primitive in the colour of its number, from 1 on; 0 is the background
+    lines,        ///< what is seen of silhouettes, creases and intersections, alone
+    hidden_lines, ///< and what is not seen of silhouettes and creases
+    toon,         ///< flat in three tones of each colour, with the lines on top
 };
+
+constexpr bool has_fills(DrawingStyle style) {
+    return style != DrawingStyle::lines && style != DrawingStyle::hidden_lines;
+}
+
+constexpr bool has_lines(DrawingStyle style) {
+    return !has_fills(style) || style == DrawingStyle::toon;
+}
 
 struct DrawSettings {
     DrawingStyle style = DrawingStyle::flat;
+    bool shadow_lines = false; ///< whether the borders of shadows are among the lines
     double deviation =
         0.1; ///< how far the plane facets of what is curved may lie off it, in pixels
 };

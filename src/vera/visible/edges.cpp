@@ -67,4 +67,22 @@ std::vector<EdgeNeighbours> edge_neighbours(const ScreenScene& scene, const Scre
     return result;
 }
 
+EdgeTriangles edge_triangles(const ScreenScene& scene, const ScreenEdges& edges) {
+    EdgeTriangles result;
+    result.starts.resize(edges.edges.size() + 1);
+    const auto for_each_side = [&](const auto& visit) {
+        for (std::uint32_t i = 0; i < edges.of_triangle.size(); ++i)
+            for (const std::uint32_t edge : edges.of_triangle[i])
+                if (!scene.triangles[i].is_shadow())
+                    visit(edge, i);
+    };
+    for_each_side([&](std::uint32_t edge, std::uint32_t) { ++result.starts[edge + 1]; });
+    for (std::size_t i = 1; i < result.starts.size(); ++i)
+        result.starts[i] += result.starts[i - 1];
+    result.triangles.resize(result.starts.back());
+    std::vector<std::uint32_t> next(result.starts.begin(), result.starts.end() - 1);
+    for_each_side([&](std::uint32_t edge, std::uint32_t i) { result.triangles[next[edge]++] = i; });
+    return result;
+}
+
 } // namespace vera

@@ -6,6 +6,7 @@
 #include <array>
 #include <compare>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace vera {
@@ -39,5 +40,17 @@ struct EdgeNeighbours {
 /// Of each edge.
 std::vector<EdgeNeighbours>
 edge_neighbours(const ScreenScene& scene, const ScreenEdges& edges);
+
+/// The surfaces that have each edge.
+struct EdgeTriangles {
+    std::vector<std::uint32_t> starts;    ///< edge i has triangles[starts[i]] to [starts[i + 1]]
+    std::vector<std::uint32_t> triangles; ///< in ascending order within an edge
+
+    std::span<const std::uint32_t> of(std::uint32_t edge) const {
+        return std::span(triangles).subspan(starts[edge], starts[edge + 1] - starts[edge]);
+    }
+};
+
+EdgeTriangles edge_triangles(const ScreenScene& scene, const ScreenEdges& edges);
 
 } // namespace vera

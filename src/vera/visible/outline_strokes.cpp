@@ -1,172 +1,295 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/outline_strokes.h"
 
-#include "vera/math/vec3.h"
-#include "vera/scene/surface.h"
+#include "vera/base/parallel.h"
+#include "vera/drawing/elliptic_arc.h"
+#include "vera/visible/curve_parts.h"
+#include "vera/visible/hidden_parts.h"
+#include "vera/visible/line_chains.h"
+#include "vera/visible/line_rules.h"
+#include "vera/visible/outline_curves.h"
+#include "vera/visible/point_numbers.h"
+#include "vera/visible/second_lines.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
-#include <span>
-#include <string>
+#include <cstddef>
+#include <optional>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 namespace vera {
 
 namespace {
 
-enum class LineClass : std::uint8_t { none, silhouette, crease };
+/// The lines of a drawing in parts, and the points between them.
+struct LineParts {
+    std::vector<LinePart> parts;
+    std::vector<RationalPoint> points;
+};
 
-/// Faces that meet at less are one surface for the eye.
-constexpr double smooth_cosine = 0.9;
-
-Vec3 normal_of_face(const StrokeSources& sources, std::uint32_t face) {
-    const Facets::Triangle& facet = sources.facets.triangles[sources.faces.first_facet[face]];
-    const auto corner = [&](std::size_t i) { return sources.facets.corners[facet.corners[i]]; };
-    return normalized(cross(corner(1) - corner(0), corner(2) - corner(0)));
-}
-
-bool are_of_one_item(const Scene& scene, std::uint64_t a, std::uint64_t b) {
-    if (a == b)
-        return true;
-    const PrimitivePath path_a = path_to(scene, a);
-    const PrimitivePath path_b = path_to(scene, b);
-    return path_a.geometry == path_b.geometry && path_a.element.item == path_b.element.item
-        && path_a.to_world == path_b.to_world;
-}
-
-/// Whether both triangles have the place on one of their sides, equally near.
-bool meet_there(const StrokeSources& sources, const VisiblePiece& piece) {
-    std::array<DepthPlane, 2> planes;
-    for (std::size_t i = 0; i < 2; ++i)
-        planes[i] = plane_of(
-            sources.screen, sources.screen.triangles[i == 0 ? piece.left : piece.right]);
-    for (const RationalPoint& point : {piece.from, piece.to}) {
-        const double apart =
-            std::abs(planes[0].value(point.x(), point.y()) - planes[1].value(point.x(), point.y()));
-        double slope = 0;
-        for (const DepthPlane& plane : planes)
-            slope += (std::abs(static_cast<double>(plane.along_x))
-                      + std::abs(static_cast<double>(plane.along_y)))
-                / static_cast<double>(plane.area);
-        if (!(apart <= 2 * slope + 4))
-            return false;
-    }
-    return true;
-}
-
-/// Whether faces that meet do so at an angle that is to be seen. Facets of one curved piece do not,
-/// however few there are of them.
-bool is_crease(const StrokeSources& sources, std::uint32_t one, std::uint32_t other) {
-    const Facets::Triangle& a = sources.facets.triangles[sources.faces.first_facet[one]];
-    const Facets::Triangle& b = sources.facets.triangles[sources.faces.first_facet[other]];
-    if (a.primitive == b.primitive && a.piece == b.piece)
-        return false;
-    const double cosine = dot(normal_of_face(sources, one), normal_of_face(sources, other));
-    return std::abs(cosine) < smooth_cosine
-        || !are_of_one_item(sources.scene, a.primitive, b.primitive);
-}
-
-/// Whether the frame cuts a surface there, which goes on beyond it.
-bool is_on_frame(const VisiblePiece& piece) {
-    const RationalPoint& a = piece.from;
-    const RationalPoint& b = piece.to;
-    const auto both_at = [](std::int32_t one, std::int32_t other) {
-        return one == other && (one == 0 || one == screen_size);
+std::vector<LinePart> visible_parts(const StrokeSources& sources, const LineRules& rules) {
+    const std::vector<VisiblePiece>& pieces = sources.pieces.pieces;
+    std::vector<std::optional<LineClass>> classes(pieces.size());
+    parallel_ranges(pieces.size(), 1024, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+            classes[i] = rules.class_of(pieces[i]);
+    });
+    const auto face_of = [&](std::uint32_t triangle) {
+        return triangle == no_triangle ? no_source : sources.screen.triangles[triangle].source;
     };
-    return (both_at(a.whole.x, b.whole.x) && a.x_numerator == 0 && b.x_numerator == 0)
-        || (both_at(a.whole.y, b.whole.y) && a.y_numerator == 0 && b.y_numerator == 0);
-}
-
-LineClass class_of(const StrokeSources& sources, const VisiblePiece& piece) {
-    if (is_on_frame(piece))
-        return LineClass::none;
-    if (piece.left == no_triangle || piece.right == no_triangle || !meet_there(sources, piece))
-        return LineClass::silhouette;
-    const std::uint32_t left = sources.screen.triangles[piece.left].source;
-    const std::uint32_t right = sources.screen.triangles[piece.right].source;
-    return is_crease(sources, left, right) ? LineClass::crease : LineClass::none;
-}
-
-/// Joins pieces of one class end to end.
-class Chains {
-public:
-    Chains(std::span<const std::array<std::uint32_t, 2>> ends, std::size_t vertex_count)
-        : ends_(ends)
-        , at_(vertex_count) {}
-
-    void add(std::uint32_t piece) {
-        pieces_.push_back(piece);
-        for (const std::uint32_t vertex : ends_[piece])
-            at_[vertex].push_back(piece);
+    std::vector<LinePart> parts;
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        if (!classes[i])
+            continue;
+        LinePart& part = parts.emplace_back();
+        part.ends = sources.map.piece_ends[i];
+        part.step = step(pieces[i].edge_begin, pieces[i].edge_end);
+        part.line_class = *classes[i];
+        part.faces = {face_of(pieces[i].left), face_of(pieces[i].right)};
+        part.is_between_neighbours = rules.is_between_neighbours(pieces[i]);
     }
+    return parts;
+}
 
-    /// Calls visit(vertices, closed) for each chain.
-    template <typename Visit>
-    void for_each(const Visit& visit) {
-        done_.assign(ends_.size(), 0);
-        // Open chains from their ends on, then what is left: closed ones.
-        for (const bool from_ends : {true, false})
-            for (const std::uint32_t piece : pieces_)
-                for (const std::uint32_t begin : ends_[piece])
-                    if (done_[piece] == 0 && (!from_ends || at_[begin].size() != 2))
-                        follow(piece, begin, visit);
+void add_hidden_parts(const StrokeSources& sources, const LineRules& rules, LineParts& lines) {
+    const ScreenEdges& edges = rules.edges();
+    const std::vector<HiddenPart> hidden =
+        hidden_parts(sources.screen, edges, rules.drawn_edges(), sources.pieces.pieces);
+    PointNumbers numbers(lines.points, lines.points.size() + 2 * hidden.size());
+    for (const HiddenPart& part : hidden) {
+        const auto& [begin, end] = edges.edges[part.edge];
+        const auto triangles = rules.edge_triangles().of(part.edge);
+        LinePart& line = lines.parts.emplace_back();
+        line.ends = {numbers.number(part.from), numbers.number(part.to)};
+        line.step = step(sources.screen.vertices[begin].point, sources.screen.vertices[end].point);
+        line.line_class = LineClass::hidden;
+        line.faces = {
+            sources.screen.triangles[triangles.front()].source,
+            sources.screen.triangles[triangles.back()].source};
+    }
+}
+
+DrawingPoint in_pixels(const PictureSettings& picture, const RationalPoint& point) {
+    return {point.x() * picture.width / screen_size, point.y() * picture.height / screen_size};
+}
+
+/// How far what lies on a curve may be off it: as far as facets may, and the grid moves points.
+double tolerance(const StrokeSources& sources) {
+    return sources.deviation
+        + 4.0 * std::max(sources.picture.width, sources.picture.height) / screen_size;
+}
+
+OutlineCurves curves_of(const StrokeSources& sources, const std::vector<LinePart>& parts) {
+    std::vector<std::uint64_t> primitives;
+    for (const LinePart& part : parts)
+        for (const std::uint32_t face : part.faces)
+            if (face != no_source)
+                primitives.push_back(
+                    sources.facets.triangles[sources.faces.first_facet[face]].primitive);
+    std::sort(primitives.begin(), primitives.end());
+    primitives.erase(std::unique(primitives.begin(), primitives.end()), primitives.end());
+    return {sources.scene, sources.camera_map, sources.picture, primitives};
+}
+
+/// Of facets along a silhouette, those that hide behind others may be farther off it.
+double tolerance_of(const StrokeSources& sources, LineClass line_class) {
+    return (line_class == LineClass::hidden ? 3 : 1) * tolerance(sources);
+}
+
+void find_curves(
+    const StrokeSources& sources,
+    const OutlineCurves& curves,
+    const std::vector<DrawingPoint>& places,
+    std::vector<LinePart>& parts) {
+    parallel_ranges(parts.size(), 1024, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+            for (const std::uint32_t face : parts[i].faces)
+                if (face != no_source && parts[i].curve == no_curve)
+                    parts[i].curve = curves.curve_of(
+                        sources.facets.triangles[sources.faces.first_facet[face]],
+                        parts[i].line_class == LineClass::silhouette
+                            || parts[i].line_class == LineClass::hidden,
+                        {places[parts[i].ends[0]], places[parts[i].ends[1]]},
+                        tolerance_of(sources, parts[i].line_class));
+    });
+}
+
+/// What a point at which a line ends is to lie upon.
+struct Constraint {
+    std::uint32_t vertex = 0;
+    std::uint32_t curve = no_curve; ///< or the straight line through the point along step
+    ScreenStep step;
+
+    bool is_same_as(const Constraint& other) const {
+        return curve == other.curve && (curve != no_curve || cross(step, other.step) == 0);
+    }
+};
+
+/// Of the points on curves, sorted by point, curves first.
+std::vector<Constraint> constraints_of(const LineParts& lines) {
+    std::vector<std::uint8_t> is_on_curve(lines.points.size());
+    for (const LinePart& part : lines.parts)
+        if (part.curve != no_curve)
+            for (const std::uint32_t vertex : part.ends)
+                is_on_curve[vertex] = 1;
+    std::vector<Constraint> constraints;
+    for (const LinePart& part : lines.parts)
+        for (const std::uint32_t vertex : part.ends)
+            if (is_on_curve[vertex] != 0)
+                constraints.push_back({vertex, part.curve, part.step});
+    std::stable_sort(
+        constraints.begin(), constraints.end(), [](const Constraint& a, const Constraint& b) {
+            return std::tie(a.vertex, a.curve) < std::tie(b.vertex, b.curve);
+        });
+    return constraints;
+}
+
+/// Moves points of curves, which lie on facets, to these: those where two of them cross, or one and
+/// a straight line, to where they do.
+void move_to_curves(
+    const StrokeSources& sources,
+    const OutlineCurves& curves,
+    const LineParts& lines,
+    std::vector<DrawingPoint>& places) {
+    const std::vector<Constraint> constraints = constraints_of(lines);
+    const auto moved = [&](const Constraint& to, DrawingPoint from, DrawingPoint point) {
+        if (to.curve != no_curve)
+            return point_at(curves[to.curve], nearest_degrees(curves[to.curve], point));
+        const double x = static_cast<double>(to.step.x) * sources.picture.width;
+        const double y = static_cast<double>(to.step.y) * sources.picture.height;
+        const double part = ((point.x - from.x) * x + (point.y - from.y) * y) / (x * x + y * y);
+        return DrawingPoint{from.x + part * x, from.y + part * y};
+    };
+    for (std::size_t first = 0, last = 0; first < constraints.size(); first = last) {
+        const Constraint& one = constraints[first];
+        const Constraint* other = nullptr;
+        for (; last < constraints.size() && constraints[last].vertex == one.vertex; ++last)
+            if (other == nullptr && !constraints[last].is_same_as(one))
+                other = &constraints[last];
+        const DrawingPoint from = places[one.vertex];
+        const DrawingPoint nearest = moved(one, from, from);
+        // From one to the other and back leads to where they cross, unless they all but touch.
+        DrawingPoint crossing = nearest;
+        for (int i = 0; other != nullptr && i < 32; ++i)
+            crossing = moved(one, from, moved(*other, from, crossing));
+        places[one.vertex] =
+            distance(crossing, from) <= 4 * tolerance(sources) ? crossing : nearest;
+    }
+}
+
+/// Makes strokes of chains.
+class StrokeMaker {
+public:
+    StrokeMaker(
+        const std::vector<LinePart>& parts,
+        const OutlineCurves& curves,
+        const std::vector<DrawingPoint>& places)
+        : parts_(parts)
+        , curves_(curves)
+        , places_(places) {}
+
+    Stroke stroke(LineClass line_class, LineChain chain) const {
+        begin_at_a_corner(chain);
+        Stroke stroke;
+        stroke.line_class = line_class;
+        stroke.closed = chain.closed;
+        for (std::size_t i = 0; i < chain.parts.size(); ++i) {
+            if (i > 0 && are_straight_on(chain.parts[i - 1], chain.parts[i]))
+                continue;
+            if (const DrawingArc arc = arc_of(chain, i, stroke.points.size()); is_curved(arc))
+                stroke.arcs.push_back(arc);
+            stroke.points.push_back(places_[chain.vertices[i]]);
+        }
+        if (!chain.closed)
+            stroke.points.push_back(places_[chain.vertices.back()]);
+        return stroke;
     }
 
 private:
-    template <typename Visit>
-    void follow(std::uint32_t piece, std::uint32_t begin, const Visit& visit) {
-        std::vector<std::uint32_t> vertices = {begin};
-        std::uint32_t here = begin;
-        while (true) {
-            done_[piece] = 1;
-            here = ends_[piece][0] == here ? ends_[piece][1] : ends_[piece][0];
-            if (here == begin)
-                return visit(vertices, true);
-            vertices.push_back(here);
-            if (at_[here].size() != 2)
-                return visit(vertices, false);
-            const std::uint32_t next = at_[here][0] == piece ? at_[here][1] : at_[here][0];
-            if (done_[next] != 0)
-                return visit(vertices, false);
-            piece = next;
-        }
+    bool are_straight_on(std::uint32_t a, std::uint32_t b) const {
+        return parts_[a].curve == no_curve && parts_[b].curve == no_curve
+            && cross(parts_[a].step, parts_[b].step) == 0;
     }
 
-    std::span<const std::array<std::uint32_t, 2>> ends_;
-    std::vector<std::vector<std::uint32_t>> at_; ///< the pieces at each vertex
-    std::vector<std::uint32_t> pieces_;
-    std::vector<std::uint8_t> done_;
+    /// Where a closed chain has one.
+    void begin_at_a_corner(LineChain& chain) const {
+        for (std::size_t i = 0; chain.closed && i < chain.parts.size(); ++i)
+            if (!are_straight_on(
+                    chain.parts[i], chain.parts[i == 0 ? chain.parts.size() - 1 : i - 1])) {
+                const auto by = static_cast<std::ptrdiff_t>(i);
+                std::rotate(chain.parts.begin(), chain.parts.begin() + by, chain.parts.end());
+                std::rotate(
+                    chain.vertices.begin(), chain.vertices.begin() + by, chain.vertices.end());
+                return;
+            }
+    }
+
+    /// Of part number i of the chain, which may lead against the curve; of straight ones, none.
+    DrawingArc arc_of(const LineChain& chain, std::size_t i, std::size_t segment) const {
+        const LinePart& part = parts_[chain.parts[i]];
+        if (part.curve == no_curve)
+            return {};
+        const bool forward = part.ends[0] == chain.vertices[i];
+        return {
+            segment,
+            curves_[part.curve],
+            forward ? part.begin_degrees : part.end_degrees,
+            forward ? part.end_degrees : part.begin_degrees};
+    }
+
+    /// Whether it is to be told from a straight line.
+    static bool is_curved(const DrawingArc& arc) {
+        constexpr double flat = 1e-3; // pixels
+        if (std::abs(arc.end_degrees - arc.begin_degrees) > 180)
+            return true;
+        const DrawingPoint a = point_at(arc.ellipse, arc.begin_degrees);
+        const DrawingPoint b = point_at(arc.ellipse, arc.end_degrees);
+        const DrawingPoint middle =
+            point_at(arc.ellipse, (arc.begin_degrees + arc.end_degrees) / 2);
+        return distance(middle, {(a.x + b.x) / 2, (a.y + b.y) / 2}) > flat;
+    }
+
+    const std::vector<LinePart>& parts_;
+    const OutlineCurves& curves_;
+    const std::vector<DrawingPoint>& places_;
 };
 
 } // namespace
 
-void add_strokes(const StrokeSources& sources, const PictureSettings& picture, Drawing& drawing) {
-    const std::size_t count = sources.pieces.pieces.size();
-    std::vector<LineClass> classes(count);
-    parallel_ranges(count, 1024, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i)
-            classes[i] = class_of(sources, sources.pieces.pieces[i]);
-    });
-    for (const auto& [line_class, name] :
-         {std::pair{LineClass::crease, "crease"}, {LineClass::silhouette, "silhouette"}}) {
-        Chains chains(sources.map.piece_ends, sources.map.vertices.size());
-        for (std::uint32_t i = 0; i < count; ++i)
-            if (classes[i] == line_class)
-                chains.add(i);
-        chains.for_each([&, name = name](const std::vector<std::uint32_t>& vertices, bool closed) {
-            Stroke stroke;
-            stroke.line_class = name;
-            stroke.closed = closed;
-            for (const std::uint32_t vertex : vertices) {
-                const RationalPoint& point = sources.map.vertices[vertex];
-                stroke.points.push_back(
-                    {point.x() * picture.width / screen_size,
-                     point.y() * picture.height / screen_size});
-            }
-            drawing.strokes.push_back(std::move(stroke));
+void add_strokes(const StrokeSources& sources, const ExtraLines& extra, Drawing& drawing) {
+    const LineRules rules(
+        sources.scene, sources.camera, sources.facets, sources.faces, sources.screen);
+    LineParts lines = {visible_parts(sources, rules), sources.map.vertices};
+    if (!extra.shadows)
+        std::erase_if(lines.parts, [](const LinePart& part) {
+            return part.line_class == LineClass::shadow;
         });
+    if (extra.hidden)
+        add_hidden_parts(sources, rules, lines);
+
+    std::vector<DrawingPoint> places;
+    places.reserve(lines.points.size());
+    for (const RationalPoint& point : lines.points)
+        places.push_back(in_pixels(sources.picture, point));
+    leave_out_second_lines(
+        sources.facets,
+        sources.faces,
+        places,
+        tolerance_of(sources, LineClass::hidden),
+        lines.parts);
+    const OutlineCurves curves = curves_of(sources, lines.parts);
+    find_curves(sources, curves, places, lines.parts);
+    move_to_curves(sources, curves, lines, places);
+    unite_on_curves(curves, tolerance(sources), lines.parts, places);
+
+    const StrokeMaker maker(lines.parts, curves, places);
+    for (std::size_t i = 0; i < line_class_names.size(); ++i) {
+        const auto line_class = static_cast<LineClass>(i);
+        for (LineChain& chain : line_chains(lines.parts, line_class, places.size()))
+            drawing.strokes.push_back(maker.stroke(line_class, std::move(chain)));
     }
 }
 

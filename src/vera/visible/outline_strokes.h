@@ -7,23 +7,35 @@
 #include "vera/scene/scene.h"
 #include "vera/visible/cell_raster.h"
 #include "vera/visible/drawn_faces.h"
+#include "vera/visible/projection.h"
 #include "vera/visible/visible_map.h"
+
+#include <cstdint>
 
 namespace vera {
 
 /// What lines are drawn from.
 struct StrokeSources {
     const Scene& scene;
+    const Camera& camera;
+    const CameraMap& camera_map;
+    const PictureSettings& picture;
     const Facets& facets;
     const DrawnFaces& faces;
     const ScreenScene& screen;
     const VisiblePieces& pieces;
     const VisibleMap& map;
+    double deviation = 0; ///< how far facets may lie off what is curved, in pixels
 };
 
-/// Adds the lines that part what is seen: silhouettes, where one of two surfaces ends before the
-/// other or before nothing, and creases, where two meet at an angle. The frame is neither. Pieces
-/// that go on in each other become one stroke.
-void add_strokes(const StrokeSources& sources, const PictureSettings& picture, Drawing& drawing);
+/// Lines that not every drawing is to have.
+struct ExtraLines {
+    bool hidden = false; ///< the parts of silhouettes and creases that are not seen
+    bool shadows = false; ///< where the screen's shadows end
+};
+
+/// Adds the lines that part what is seen, by class, and the extra ones. The frame is no line. What goes on in each other becomes one stroke, and what lies
+/// on an ellipse of a curved primitive an arc of it.
+void add_strokes(const StrokeSources& sources, const ExtraLines& extra, Drawing& drawing);
 
 } // namespace vera

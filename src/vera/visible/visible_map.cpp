@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/visible_map.h"
 
+#include "vera/visible/point_numbers.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -11,49 +13,6 @@ namespace vera {
 namespace {
 
 constexpr std::uint32_t none = ~std::uint32_t{0};
-
-std::uint64_t hash_of(const RationalPoint& point) {
-    std::uint64_t hash = 0;
-    const auto mix = [&](std::uint64_t value) {
-        hash = (hash ^ value) * 0x9e3779b97f4a7c15U;
-        hash ^= hash >> 32U;
-    };
-    mix(static_cast<std::uint64_t>(point.whole.x) << 32U
-        | static_cast<std::uint32_t>(point.whole.y));
-    mix(static_cast<std::uint64_t>(point.x_numerator));
-    mix(static_cast<std::uint64_t>(point.y_numerator));
-    mix(static_cast<std::uint64_t>(point.denominator));
-    return hash;
-}
-
-/// Numbers points in the order in which they come, equal ones alike.
-class PointNumbers {
-public:
-    PointNumbers(std::vector<RationalPoint>& points, std::size_t most)
-        : points_(points) {
-        std::size_t size = 16;
-        while (size < 2 * most)
-            size *= 2;
-        places_.assign(size, none);
-    }
-
-    std::uint32_t number(const RationalPoint& point) {
-        const std::size_t mask = places_.size() - 1;
-        std::size_t place = hash_of(point) & mask;
-        while (places_[place] != none) {
-            if (points_[places_[place]] == point)
-                return places_[place];
-            place = (place + 1) & mask;
-        }
-        places_[place] = static_cast<std::uint32_t>(points_.size());
-        points_.push_back(point);
-        return places_[place];
-    }
-
-private:
-    std::vector<RationalPoint>& points_;
-    std::vector<std::uint32_t> places_;
-};
 
 /// The two ways along a piece: 2 i with, 2 i + 1 against its edge.
 struct Ways {

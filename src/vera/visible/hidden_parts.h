@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "vera/visible/cell_raster.h"
+#include "vera/visible/edges.h"
+#include "vera/visible/screen_scene.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace vera {
+
+/// A part of an edge behind something, or behind a line that is seen.
+struct HiddenPart {
+    RationalPoint from;
+    RationalPoint to;
+    std::uint32_t edge = 0; ///< of the first of the edges that lie there
+};
+
+/// What of the edges no piece lies upon, exactly: hidden is what is not seen. Where several edges
+/// lie upon each other they are one. In the order of the lines through them, and along these.
+std::vector<HiddenPart> hidden_parts(
+    const ScreenScene& scene,
+    const ScreenEdges& edges,
+    std::span<const std::uint32_t> drawn,
+    std::span<const VisiblePiece> pieces);
+
+} // namespace vera

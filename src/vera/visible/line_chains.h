@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "vera/drawing/line_class.h"
+#include "vera/exact/screen_point.h"
+#include "vera/visible/outline_curves.h"
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace vera {
+
+/// A part of a line of the drawing, straight or on a curve.
+struct LinePart {
+    std::array<std::uint32_t, 2> ends = {}; ///< numbers of points; of a whole ellipse the same one
+    ScreenStep step = {};                   ///< along it
+    LineClass line_class = LineClass::silhouette;
+    std::array<std::uint32_t, 2> faces = {}; ///< beside it, or no_source
+    std::uint32_t curve = no_curve;          ///< see OutlineCurves
+    double begin_degrees = 0; ///< on the curve, once it is one part of it: see unite_on_curves()
+    double end_degrees = 0;
+    bool is_between_neighbours = false; ///< see LineRules::is_between_neighbours()
+};
+
+/// Parts that go on in each other: parts[i] leads from vertices[i] to the next, of a closed chain
+/// the last to the first.
+struct LineChain {
+    std::vector<std::uint32_t> vertices;
+    std::vector<std::uint32_t> parts;
+    bool closed = false;
+};
+
+/// The parts of one class as chains, each part in one. Where more than two end at a point, those go
+/// on in each other that lie on one curve, or in one straight line. Only points below point_count
+/// are used.
+std::vector<LineChain>
+line_chains(std::span<const LinePart> parts, LineClass line_class, std::size_t point_count);
+
+} // namespace vera
