@@ -6,9 +6,11 @@
 #include "vera/scene/camera.h"
 #include "vera/scene/picture_settings.h"
 #include "vera/scene/scene.h"
+#include "vera/visible/map_check.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 
 namespace vera {
 
@@ -22,6 +24,8 @@ struct DrawSettings {
     DrawingStyle style = DrawingStyle::flat;
     double deviation =
         0.1; ///< how far the plane facets of what is curved may lie off it, in pixels
+    /// Called, where there is one, with the map before anything is painted; may throw.
+    std::function<void(const PrimitiveMap& map)> check;
 };
 
 struct DrawnScene {
