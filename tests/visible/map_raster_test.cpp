@@ -155,7 +155,7 @@ TEST(MapRaster, LosesNoAreaOfAnySource) {
 
 TEST(MapRaster, ShowsInTheMiddleOfEachPixelWhatAskingEveryTriangleTells) {
     for (const ScreenScene& scene : scenes())
-        for (const std::size_t size : {1, 4, 32}) {
+        for (const std::size_t size : {std::size_t{1}, std::size_t{4}, std::size_t{32}}) {
             const MapRaster raster(map_of(scene), size, size);
             std::vector<PixelPart> parts;
             for (std::size_t band = 0; band < raster.bands().count(); ++band)

@@ -43,9 +43,10 @@ Run covered(
         const ScreenStep side = step(from, corners[(i + 1) % 3].point);
         const std::int64_t down = (2 * row + 1) * screen_size - 2 * rows * from.y;
         const std::int64_t across = screen_size - 2 * columns * from.x;
-        const Int128 constant =
-            Int128{2 * columns * side.x} * down - Int128{2 * rows * side.y} * across;
-        const Int128 slope = -Int128{2 * rows * side.y} * (2 * std::int64_t{screen_size});
+        const Int128 rise = 2 * Int128{side.x} * columns;
+        const Int128 fall = 2 * Int128{side.y} * rows;
+        const Int128 constant = rise * down - fall * across;
+        const Int128 slope = -2 * fall * screen_size;
         if (slope == 0 && constant < 0)
             return {};
         // Compared in their own type: far out the bounds exceed 64 bits.
