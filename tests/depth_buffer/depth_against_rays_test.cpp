@@ -87,7 +87,8 @@ std::optional<std::uint64_t> seen_around(
 
 struct Compared {
     int pixels = 0;
-    int near_edge = 0; ///< not compared
+    int near_edge = 0; ///< not compared with rays
+    int apart = 0;     ///< the map and the depth buffer, which see the same grid, differ
 };
 
 /// All three strategies show the same in the middle of each pixel, but within two deviations from
@@ -109,6 +110,7 @@ Compared compare(
         const double x = (static_cast<double>(pixel % width) + 0.5) * across;
         const double y = (static_cast<double>(pixel / width) + 0.5) * down;
         ++compared.pixels;
+        compared.apart += found.by_depth[pixel] == found.by_map[pixel] ? 0 : 1;
         const auto expected =
             seen_around(index, camera, x, y, 2 * deviation * across, 2 * deviation * down);
         if (!expected) {
@@ -137,11 +139,14 @@ TEST(DepthAgainstRays, ShowsTheSamePrimitivesOfRandomScenes) {
             "scene " + std::to_string(number));
         all.pixels += compared.pixels;
         all.near_edge += compared.near_edge;
+        all.apart += compared.apart;
     }
     EXPECT_GT(all.pixels, 4000);
     EXPECT_LT(all.near_edge, all.pixels / 10);
+    EXPECT_EQ(all.apart, 0);
     RecordProperty("pixels", all.pixels);
     RecordProperty("near_edge", all.near_edge);
+    RecordProperty("apart", all.apart);
 }
 
 class DepthOfExample : public ::testing::TestWithParam<std::string> {};
@@ -153,8 +158,10 @@ TEST_P(DepthOfExample, ShowsTheSamePrimitivesAsRays) {
         compare(scene, *scene.camera, *index, settings.width, settings.height, GetParam());
     EXPECT_GT(compared.pixels, 0);
     EXPECT_LT(compared.near_edge, compared.pixels / 4);
+    EXPECT_EQ(compared.apart, 0);
     RecordProperty("pixels", compared.pixels);
     RecordProperty("near_edge", compared.near_edge);
+    RecordProperty("apart", compared.apart);
 }
 
 INSTANTIATE_TEST_SUITE_P(

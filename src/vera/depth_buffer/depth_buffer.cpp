@@ -95,7 +95,7 @@ void DepthBuffer::sort_into_bands() {
         for_each_band(face, [&](std::size_t band) { ++starts_[band + 1]; });
     std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
     listed_.resize(starts_.back());
-    std::vector<std::uint32_t> next(starts_.begin(), starts_.end() - 1);
+    std::vector<std::size_t> next(starts_.begin(), starts_.end() - 1);
     for (std::uint32_t i = 0; i < faces_.size(); ++i)
         for_each_band(faces_[i], [&](std::size_t band) { listed_[next[band]++] = i; });
 }

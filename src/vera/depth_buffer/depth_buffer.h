@@ -62,7 +62,7 @@ private:
 
     DepthSamples samples_;
     std::vector<Face> faces_;
-    std::vector<std::uint32_t> starts_; ///< band i has the triangles [starts_[i]] to the next start
+    std::vector<std::size_t> starts_; ///< band i has the triangles [starts_[i]] to the next start
     std::vector<std::uint32_t> listed_;
 };
 

@@ -45,7 +45,7 @@ MapStrips::MapStrips(const VisibleMap& map, double strip_height)
         for_each_strip(side, [&](std::size_t strip) { ++starts_[strip + 1]; });
     std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
     listed_.resize(starts_.back());
-    std::vector<std::uint32_t> next(starts_.begin(), starts_.end() - 1);
+    std::vector<std::size_t> next(starts_.begin(), starts_.end() - 1);
     for (std::uint32_t i = 0; i < sides_.size(); ++i)
         for_each_strip(sides_[i], [&](std::size_t strip) { listed_[next[strip]++] = i; });
 }

@@ -48,7 +48,7 @@ public:
 private:
     double strip_height_;
     std::vector<MapSide> sides_;
-    std::vector<std::uint32_t> starts_;
+    std::vector<std::size_t> starts_;
     std::vector<std::uint32_t> listed_;
 };
 
