@@ -9,6 +9,7 @@
 #include "vera/visible/map_check.h"
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -124,20 +125,28 @@ std::string thing_text(const Scene& scene, std::uint64_t primitive) {
     throw InputError({problem});
 }
 
-/// Compares the map with rays, and lets no drawing be written that differs.
-void verify(
-    const PrimitiveMap& map,
+/// What compares the map with rays at so many points, and lets no drawing be written that differs.
+/// All that is given must outlive it.
+std::function<void(const PrimitiveMap&)> verification(
+    std::size_t points,
+    double deviation,
     const PreparedScene& prepared,
-    const MapCheckSettings& settings,
     const Console& console,
     Report& report) {
-    Stopwatch watch;
-    const auto index = scene_index(prepared.scene, {}, {}, console.cancel);
-    report.check =
-        check_map(map, prepared.scene, prepared.camera, *index, settings, &console.cancel);
-    report.verify_seconds = watch.lap();
-    if (report.check.far > 0)
-        refuse(prepared.scene, report.check);
+    return [=, &prepared, &console, &report](const PrimitiveMap& map) {
+        Stopwatch watch;
+        const MapCheckSettings settings = {
+            points,
+            static_cast<double>(prepared.settings.width),
+            static_cast<double>(prepared.settings.height),
+            deviation};
+        const auto index = scene_index(prepared.scene, {}, {}, console.cancel);
+        report.check =
+            check_map(map, prepared.scene, prepared.camera, *index, settings, &console.cancel);
+        report.verify_seconds = watch.lap();
+        if (report.check.far > 0)
+            refuse(prepared.scene, report.check);
+    };
 }
 
 void print_check(const MapCheck& check, const Console& console) {
@@ -214,17 +223,7 @@ void draw(const Request& request, const Console& console) {
     if (settings.style == DrawingStyle::flat)
         expose_as_picture(prepared, console);
     if (points > 0)
-        settings.check = [&](const PrimitiveMap& map) {
-            verify(
-                map,
-                prepared,
-                {points,
-                 static_cast<double>(prepared.settings.width),
-                 static_cast<double>(prepared.settings.height),
-                 settings.deviation},
-                console,
-                report);
-        };
+        settings.check = verification(points, settings.deviation, prepared, console, report);
     DrawnScene drawn;
     {
         const CancellableWork work;

@@ -204,6 +204,51 @@ void print_exposure(const Exposure& exposure, const Console& console) {
     }
 }
 
+/// What is seen, where that is not left to rays.
+SeenParts surfaces(const Request& request, const PreparedScene& prepared, const Console& console) {
+    if (request.strategy.is_rays())
+        return {};
+    const CancellableWork work;
+    ProgressDisplay display(console, "surfaces");
+    SeenParts seen = seen_parts(request.strategy, prepared, display.callback(), console.cancel);
+    print_notes(seen, console);
+    return seen;
+}
+
+std::unique_ptr<RayIndex>
+index_for(const Request& request, const PreparedScene& prepared, const Console& console) {
+    const CancellableWork work;
+    ProgressDisplay display(console, "index");
+    IndexRequest wanted = request.index;
+    // It needs no building.
+    if (!needs_index(request.strategy, prepared))
+        wanted.kind = "brute";
+    return scene_index(prepared.scene, wanted, display.callback(), console.cancel);
+}
+
+RenderResult rendered(
+    const PreparedScene& prepared,
+    const SeenParts& seen,
+    const RayIndex& index,
+    SampleType type,
+    const Console& console) {
+    const CancellableWork work;
+    ProgressDisplay display(console, "render");
+    const auto& [scene, settings, camera, warnings] = prepared;
+    if (!seen.of_band)
+        return render_scene(
+            scene, camera, index, settings, type, display.callback(), &console.cancel);
+    return render_parts(
+        scene,
+        camera,
+        index,
+        {*seen.facets, seen.of_band},
+        settings,
+        type,
+        display.callback(),
+        &console.cancel);
+}
+
 void render(const Request& request, const Console& console) {
     const ImageFileFormat format = output_format(request);
     const double jpeg_quality = number_of("--quality", request.jpeg_quality, 1, 100);
@@ -218,59 +263,25 @@ void render(const Request& request, const Console& console) {
     OutputFile file(request.output);
     report.read_seconds = watch.lap();
 
-    SeenParts seen;
-    if (!request.strategy.is_rays()) {
-        const CancellableWork work;
-        ProgressDisplay display(console, "surfaces");
-        seen = seen_parts(request.strategy, prepared, display.callback(), console.cancel);
-        report.surfaces_seconds = watch.lap();
-        print_notes(seen, console);
-    }
-
-    std::unique_ptr<RayIndex> index;
-    {
-        const CancellableWork work;
-        ProgressDisplay display(console, "index");
-        IndexRequest wanted = request.index;
-        // It needs no building.
-        if (!needs_index(request.strategy, prepared))
-            wanted.kind = "brute";
-        index = scene_index(prepared.scene, wanted, display.callback(), console.cancel);
-    }
+    const SeenParts seen = surfaces(request, prepared, console);
+    report.surfaces_seconds = watch.lap();
+    const std::unique_ptr<RayIndex> index = index_for(request, prepared, console);
     report.index_bytes = index->memory();
     report.index_seconds = watch.lap();
 
-    Image image;
-    {
-        const CancellableWork work;
-        ProgressDisplay display(console, "render");
-        RenderResult result = request.strategy.is_rays() ? render_scene(
-                                  prepared.scene,
-                                  prepared.camera,
-                                  *index,
-                                  prepared.settings,
-                                  sample_type(format),
-                                  display.callback(),
-                                  &console.cancel)
-                                                         : render_parts(
-                                                             prepared.scene,
-                                                             prepared.camera,
-                                                             *index,
-                                                             {*seen.facets, seen.of_band},
-                                                             prepared.settings,
-                                                             sample_type(format),
-                                                             display.callback(),
-                                                             &console.cancel);
-        image = std::move(result.image);
-        report.statistics = result.statistics;
-        report.exposure = result.exposure;
-    }
+    const RenderResult result = rendered(prepared, seen, *index, sample_type(format), console);
+    report.statistics = result.statistics;
+    report.exposure = result.exposure;
     if (report.exposure)
         print_exposure(*report.exposure, console);
     report.render_seconds = watch.lap();
 
     write_image(
-        image, file, format, metadata(prepared), {.jpeg_quality = static_cast<int>(jpeg_quality)});
+        result.image,
+        file,
+        format,
+        metadata(prepared),
+        {.jpeg_quality = static_cast<int>(jpeg_quality)});
     file.commit();
     report.write_seconds = watch.lap();
 

@@ -83,7 +83,10 @@ parts_of_map(const PreparedScene& prepared, const Progress& progress, const Canc
                     has_areas = prepared.settings.antialiasing.on](
                        std::size_t band, std::vector<PixelPart>& parts) {
         const std::size_t first = parts.size();
-        has_areas ? raster->add_areas(band, parts) : raster->add_centers(band, parts);
+        if (has_areas)
+            raster->add_areas(band, parts);
+        else
+            raster->add_centers(band, parts);
         for (PixelPart& part : std::span(parts).subspan(first))
             if (part.source != PixelPart::background)
                 part.source = first_facet[part.source];

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <memory>
 
 namespace vera {
@@ -29,19 +30,24 @@ struct BandWork {
     std::vector<Color> row;
 };
 
-/// Where the ray meets the facet's plane, but not beyond its corners.
+/// Where the ray meets the facet's plane.
 double facet_t(const Facets& facets, const Facets::Triangle& facet, const Ray& ray) {
+    constexpr double grazing = 0x1p-10;
     std::array<Vec3, 3> from_origin;
     std::array<double, 3> along;
     for (std::size_t i = 0; i < 3; ++i) {
         from_origin[i] = facets.corners[facet.corners[i]] - ray.origin;
         along[i] = dot(from_origin[i], ray.direction);
     }
-    const auto [least, most] = std::minmax_element(along.begin(), along.end());
-    const Vec3 normal = cross(from_origin[1] - from_origin[0], from_origin[2] - from_origin[0]);
+    const Vec3 normal =
+        normalized(cross(from_origin[1] - from_origin[0], from_origin[2] - from_origin[0]));
     const double speed = dot(normal, ray.direction);
-    const double t = speed != 0 ? dot(normal, from_origin[0]) / speed : *least;
-    return std::max(std::clamp(t, *least, *most), ray.t_min);
+    const double t = dot(normal, from_origin[0]) / speed;
+    if (std::abs(speed) >= grazing)
+        return std::max(t, ray.t_min);
+    // Seen almost edge-on, it is badly known on the grid: then not beyond its corners.
+    const auto [least, most] = std::minmax_element(along.begin(), along.end());
+    return std::max(speed != 0 ? std::clamp(t, *least, *most) : *least, ray.t_min);
 }
 
 /// Where a ray through the middle of a part meets what is seen there.
