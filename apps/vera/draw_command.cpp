@@ -3,9 +3,13 @@
 #include "vera/base/version.h"
 #include "vera/drawing/drawing_file.h"
 #include "vera/render/exposure.h"
+#include "vera/scene/item_names.h"
+#include "vera/scene/surface.h"
 #include "vera/visible/draw_scene.h"
+#include "vera/visible/map_check.h"
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -27,6 +31,7 @@ namespace vera {
 namespace {
 
 constexpr std::uint32_t most_threads = 1024;
+constexpr std::uint32_t most_points = 1'000'000'000;
 
 struct Request {
     SceneRequest scene;
@@ -39,12 +44,15 @@ struct Request {
     double threads = 0;
     std::vector<std::string> lines;
     bool shadow_lines = false;
+    double verify = 0; ///< points; 0: not at all
     bool json = false;
 };
 
 struct Report {
     double read_seconds = 0;
     double draw_seconds = 0;
+    double verify_seconds = 0;
+    MapCheck check;
     double write_seconds = 0;
     std::size_t bytes = 0;
 };
@@ -113,6 +121,79 @@ void expose_as_picture(PreparedScene& prepared, const Console& console) {
     prepared.settings.ambient = traced.illumination.ambient;
 }
 
+/// "face 7 (sphere, line 5)"
+std::string thing_text(const Scene& scene, std::uint64_t primitive) {
+    if (primitive == no_primitive)
+        return "the background";
+    const PrimitivePath path = path_to(scene, primitive);
+    const Item& item = path.geometry->items[path.element.item];
+    return fmt::format(
+        "face {} ({}{})",
+        primitive + 1,
+        name_of(item.kind),
+        item.line == 0 ? "" : fmt::format(", line {}", item.line));
+}
+
+[[noreturn]] void refuse(const Scene& scene, const MapCheck& check) {
+    const MapDifference& first = *check.first_far;
+    Diagnostic problem;
+    if (!scene.files.empty())
+        problem.place.file = scene.files.front();
+    problem.problem = fmt::format(
+        "the drawing is not what rays see, at {} of {} points: at pixel ({:.3f}, {:.3f}) it shows "
+        "{}{}, and a ray sees {}",
+        check.far,
+        check.points,
+        first.x,
+        first.y,
+        thing_text(scene, first.drawn),
+        first.is_sound ? "" : " and more than that",
+        thing_text(scene, first.traced));
+    problem.remedy = "nothing was written; another --deviation or --raster may help, and a report "
+                     "of this with the scene would";
+    throw InputError({problem});
+}
+
+/// What compares the map with rays at so many points, and lets no drawing be written that differs.
+/// All that is given must outlive it.
+std::function<void(const PrimitiveMap&)> verification(
+    std::size_t points,
+    double deviation,
+    const PreparedScene& prepared,
+    const Console& console,
+    Report& report) {
+    return [=, &prepared, &console, &report](const PrimitiveMap& map) {
+        Stopwatch watch;
+        const MapCheckSettings settings = {
+            points,
+            static_cast<double>(prepared.settings.width),
+            static_cast<double>(prepared.settings.height),
+            deviation};
+        const auto index = scene_index(prepared.scene, {}, {}, console.cancel);
+        report.check =
+            check_map(map, prepared.scene, prepared.camera, *index, settings, &console.cancel);
+        report.verify_seconds = watch.lap();
+        if (report.check.far > 0)
+            refuse(prepared.scene, report.check);
+    };
+}
+
+void print_check(const MapCheck& check, const Console& console) {
+    if (check.near == 0)
+        return print_note(
+            fmt::format(
+                "verified: at all {} points the drawing shows what a ray sees", check.points),
+            console);
+    print_note(
+        fmt::format(
+            "verified: at {} of {} points the drawing shows what a ray sees; the other {} are "
+            "within 1/64 pixel, or the deviation, of it",
+            check.points - check.near,
+            check.points,
+            check.near),
+        console);
+}
+
 void print_notes(const DrawnScene& drawn, const Console& console) {
     if (drawn.cut_nearness > 0)
         print_note(
@@ -146,7 +227,7 @@ void print_notes(const DrawnScene& drawn, const Console& console) {
 }
 
 nlohmann::ordered_json as_json(const Report& report, const DrawnScene& drawn) {
-    return {
+    nlohmann::ordered_json json = {
         {"version", 1},
         {"facets", drawn.facets},
         {"visible_faces", drawn.visible_faces},
@@ -158,7 +239,11 @@ nlohmann::ordered_json as_json(const Report& report, const DrawnScene& drawn) {
         {"seconds",
          {{"read", report.read_seconds},
           {"draw", report.draw_seconds},
+          {"verify", report.verify_seconds},
           {"write", report.write_seconds}}}};
+    if (report.check.points > 0)
+        json["verified"] = {{"points", report.check.points}, {"near", report.check.near}};
+    return json;
 }
 
 void draw(const Request& request, const Console& console) {
@@ -173,6 +258,7 @@ void draw(const Request& request, const Console& console) {
     check_style(request, settings.style, format);
     for (const std::string& line : request.lines)
         apply_line_option(line, file_settings.line_styles);
+    const std::uint32_t points = whole_of("--verify", request.verify, 0, most_points);
     const ThreadLimit limit(whole_of("--threads", request.threads, 0, most_threads));
     Report report;
     Stopwatch watch;
@@ -185,6 +271,8 @@ void draw(const Request& request, const Console& console) {
 
     if (settings.style == DrawingStyle::flat || settings.style == DrawingStyle::toon)
         expose_as_picture(prepared, console);
+    if (points > 0)
+        settings.check = verification(points, settings.deviation, prepared, console, report);
     DrawnScene drawn;
     {
         const CancellableWork work;
@@ -197,7 +285,7 @@ void draw(const Request& request, const Console& console) {
             display.callback(),
             &console.cancel);
     }
-    report.draw_seconds = watch.lap();
+    report.draw_seconds = watch.lap() - report.verify_seconds;
 
     drawn.drawing.title =
         request.scene.path == "-" ? "" : std::filesystem::path(request.scene.path).stem().string();
@@ -211,6 +299,8 @@ void draw(const Request& request, const Console& console) {
         report.bytes = static_cast<std::size_t>(std::filesystem::file_size(request.output, none));
 
     print_notes(drawn, console);
+    if (points > 0)
+        print_check(report.check, console);
     if (request.json)
         fmt::print(request.output == "-" ? stderr : stdout, "{}\n", as_json(report, drawn).dump(2));
     else
@@ -283,6 +373,11 @@ void add_draw_command(CLI::App& app, Console& console) {
     command->add_option("--threads", request->threads, "0: one for each processor")
         ->type_name("N")
         ->capture_default_str();
+    command->add_flag(
+        "--verify{100000}",
+        request->verify,
+        "compare the drawing with rays at that many points (--verify=N), and write none that "
+        "differs");
     command->add_flag("--json", request->json, "counts and times as JSON on standard output");
     add_console_options(*command, console);
     command->footer(

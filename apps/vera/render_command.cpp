@@ -15,6 +15,7 @@
 #include "progress_display.h"
 #include "scene_index.h"
 #include "stopwatch.h"
+#include "strategy.h"
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -28,6 +29,7 @@ constexpr std::uint32_t most_threads = 1024;
 struct Request {
     SceneRequest scene;
     IndexRequest index;
+    StrategyRequest strategy;
     std::string output;
     std::string format;
     double jpeg_quality = 95;
@@ -38,6 +40,7 @@ struct Request {
 /// What a run did and what it cost, for people and as JSON.
 struct Report {
     double read_seconds = 0;
+    double surfaces_seconds = 0;
     double index_seconds = 0;
     double render_seconds = 0;
     double write_seconds = 0;
@@ -108,12 +111,14 @@ nlohmann::ordered_json as_json(const Report& report) {
           {"shadow_rays", counts.shadow_rays},
           {"mirrored_rays", counts.mirrored_rays},
           {"refracted_rays", counts.refracted_rays}}},
+        {"parts", counts.parts},
         {"refined_pixels", counts.refined_pixels},
         {"tests", counts.queries.tests},
         {"cells", counts.queries.cells},
         {"index_bytes", report.index_bytes},
         {"seconds",
          {{"read", report.read_seconds},
+          {"surfaces", report.surfaces_seconds},
           {"index", report.index_seconds},
           {"render", report.render_seconds},
           {"write", report.write_seconds}}}};
@@ -127,21 +132,44 @@ nlohmann::ordered_json as_json(const Report& report) {
     return json;
 }
 
-std::string as_text(const Report& report, const std::string& output) {
+std::string as_text(const Report& report, const Request& request) {
     const RenderStatistics& counts = report.statistics;
+    const bool is_by_rays = request.strategy.is_rays();
+    const std::string seen = is_by_rays
+        ? fmt::format(
+            "{} view rays ({} of them for antialiasing), {} probe",
+            counts.view_rays,
+            counts.extra_view_rays,
+            counts.probe_rays)
+        : fmt::format("{} parts of pixels; rays: {} view", counts.parts, counts.view_rays);
     return fmt::format(
-        "{}: {} view rays ({} of them for antialiasing), {} probe, {} shadow, {} mirrored, {} "
-        "refracted; {} to read, {} to index, {} to render",
-        output == "-" ? "standard output" : output,
-        counts.view_rays,
-        counts.extra_view_rays,
-        counts.probe_rays,
+        "{}: {}, {} shadow, {} mirrored, {} refracted; {} to read, {}{} to index, {} to render",
+        request.output == "-" ? "standard output" : request.output,
+        seen,
         counts.shadow_rays,
         counts.mirrored_rays,
         counts.refracted_rays,
         duration_text(report.read_seconds),
+        is_by_rays ? "" : duration_text(report.surfaces_seconds) + " for surfaces, ",
         duration_text(report.index_seconds),
         duration_text(report.render_seconds));
+}
+
+void print_notes(const SeenParts& seen, const Console& console) {
+    if (seen.cut_nearness > 0)
+        print_note(
+            fmt::format(
+                "what is nearer to the view point than {:.3g} of the image plane's distance is not "
+                "shown: the rest would be too coarse; --strategy rays shows it",
+                seen.cut_nearness),
+            console);
+    if (seen.penetrating > 0)
+        print_note(
+            fmt::format(
+                "{} pairs of facets pass through each other uncut: their common edges may be "
+                "wrong; --strategy rays or depth needs no cutting",
+                seen.penetrating),
+            console);
 }
 
 /// What the exposure measurement found, as a photographer would want to hear it.
@@ -176,10 +204,56 @@ void print_exposure(const Exposure& exposure, const Console& console) {
     }
 }
 
+/// What is seen, where that is not left to rays.
+SeenParts surfaces(const Request& request, const PreparedScene& prepared, const Console& console) {
+    if (request.strategy.is_rays())
+        return {};
+    const CancellableWork work;
+    ProgressDisplay display(console, "surfaces");
+    SeenParts seen = seen_parts(request.strategy, prepared, display.callback(), console.cancel);
+    print_notes(seen, console);
+    return seen;
+}
+
+std::unique_ptr<RayIndex>
+index_for(const Request& request, const PreparedScene& prepared, const Console& console) {
+    const CancellableWork work;
+    ProgressDisplay display(console, "index");
+    IndexRequest wanted = request.index;
+    // It needs no building.
+    if (!needs_index(request.strategy, prepared))
+        wanted.kind = "brute";
+    return scene_index(prepared.scene, wanted, display.callback(), console.cancel);
+}
+
+RenderResult rendered(
+    const PreparedScene& prepared,
+    const SeenParts& seen,
+    const RayIndex& index,
+    SampleType type,
+    const Console& console) {
+    const CancellableWork work;
+    ProgressDisplay display(console, "render");
+    const auto& [scene, settings, camera, warnings] = prepared;
+    if (!seen.of_band)
+        return render_scene(
+            scene, camera, index, settings, type, display.callback(), &console.cancel);
+    return render_parts(
+        scene,
+        camera,
+        index,
+        {*seen.facets, seen.of_band},
+        settings,
+        type,
+        display.callback(),
+        &console.cancel);
+}
+
 void render(const Request& request, const Console& console) {
     const ImageFileFormat format = output_format(request);
     const double jpeg_quality = number_of("--quality", request.jpeg_quality, 1, 100);
     const ThreadLimit limit(whole_of("--threads", request.threads, 0, most_threads));
+    check_options(request.strategy, request.scene.picture);
     Report report;
     Stopwatch watch;
 
@@ -189,44 +263,32 @@ void render(const Request& request, const Console& console) {
     OutputFile file(request.output);
     report.read_seconds = watch.lap();
 
-    std::unique_ptr<RayIndex> index;
-    {
-        const CancellableWork work;
-        ProgressDisplay display(console, "index");
-        index = scene_index(prepared.scene, request.index, display.callback(), console.cancel);
-    }
+    const SeenParts seen = surfaces(request, prepared, console);
+    report.surfaces_seconds = watch.lap();
+    const std::unique_ptr<RayIndex> index = index_for(request, prepared, console);
     report.index_bytes = index->memory();
     report.index_seconds = watch.lap();
 
-    Image image;
-    {
-        const CancellableWork work;
-        ProgressDisplay display(console, "render");
-        RenderResult result = render_scene(
-            prepared.scene,
-            prepared.camera,
-            *index,
-            prepared.settings,
-            sample_type(format),
-            display.callback(),
-            &console.cancel);
-        image = std::move(result.image);
-        report.statistics = result.statistics;
-        report.exposure = result.exposure;
-    }
+    const RenderResult result = rendered(prepared, seen, *index, sample_type(format), console);
+    report.statistics = result.statistics;
+    report.exposure = result.exposure;
     if (report.exposure)
         print_exposure(*report.exposure, console);
     report.render_seconds = watch.lap();
 
     write_image(
-        image, file, format, metadata(prepared), {.jpeg_quality = static_cast<int>(jpeg_quality)});
+        result.image,
+        file,
+        format,
+        metadata(prepared),
+        {.jpeg_quality = static_cast<int>(jpeg_quality)});
     file.commit();
     report.write_seconds = watch.lap();
 
     if (request.json)
         fmt::print(request.output == "-" ? stderr : stdout, "{}\n", as_json(report).dump(2));
     else
-        print_note(as_text(report, request.output), console);
+        print_note(as_text(report, request), console);
 }
 
 } // namespace
@@ -253,11 +315,13 @@ void add_render_command(CLI::App& app, Console& console) {
         ->type_name("N")
         ->capture_default_str();
     add_index_options(*command, request->index);
+    add_strategy_option(*command, request->strategy);
     command->add_flag("--json", request->json, "rays, tests and times as JSON on standard output");
     add_console_options(*command, console);
     command->footer("Examples:\n"
                     "  vera render still_life.vera -c still_life.ctl -o still_life.png\n"
                     "  vera render scene.vera -o draft.png --raster 320x240 --antialias off\n"
+                    "  vera render scene.vera -o exact.png --strategy visible\n"
                     "  vera render bunny.obj -o bunny.exr\n"
                     "  vera render balls.nff --format ppm -o - | display");
 

@@ -395,6 +395,22 @@ TEST(DrawCommand, SaysWhatIsTooNearToBeDrawn) {
     EXPECT_EQ(of_outlines(folder.read("b.svg"), "id"), std::vector<std::string>{"face-1"});
 }
 
+TEST(DrawCommand, ComparesTheDrawingWithRaysOnDemand) {
+    const ScratchFolder folder;
+    folder.write("a.vera", small_scene);
+    const ProgramRun run = run_vera(folder, "draw a.vera --verify=3000 -o a.svg");
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_TRUE(holds(run.err, "verified: at ")) << run.err;
+    EXPECT_TRUE(holds(run.err, "3000 points the drawing shows what a ray sees")) << run.err;
+    const ProgramRun json = run_vera(folder, "draw a.vera --verify --json -o b.svg");
+    EXPECT_EQ(json.exit_code, 0) << json.err;
+    EXPECT_TRUE(holds(json.out, "\"points\": 100000,")) << json.out;
+    EXPECT_EQ(folder.read("a.svg"), folder.read("b.svg"));
+    const ProgramRun wrong = run_vera(folder, "draw a.vera --verify=-1 -o c.svg");
+    EXPECT_EQ(wrong.exit_code, 2) << wrong.err;
+    EXPECT_TRUE(holds(wrong.err, "--verify takes a whole number from 0 to")) << wrong.err;
+}
+
 TEST(DrawCommand, LeavesNoFileWhenInterrupted) {
     const ScratchFolder folder;
     std::string text = view;

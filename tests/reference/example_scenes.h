@@ -34,7 +34,7 @@ inline std::vector<std::string> example_files() {
     return files;
 }
 
-inline std::string example_name(const testing::TestParamInfo<std::string>& info) {
+inline std::string example_name(const ::testing::TestParamInfo<std::string>& info) {
     return std::filesystem::path(info.param).stem().string();
 }
 

@@ -12,12 +12,14 @@
 #include <string>
 
 #include "accel/random_scene.h"
+#include "visible/cameras.h"
 #include "visible/map_turns.h"
-#include "visible/view_cameras.h"
 #include <gtest/gtest.h>
 
 namespace vera {
 namespace {
+
+using testing::camera_number;
 
 constexpr std::uint64_t nothing = ~std::uint64_t{0};
 
@@ -49,7 +51,7 @@ TEST(DrawingAgainstRays, TheSamePrimitivesAreSeenInRandomScenes) {
         testing::RandomSceneSettings settings;
         settings.items = 8 + static_cast<std::size_t>(number) % 3 * 6;
         const Scene scene = testing::random_scene(static_cast<std::uint64_t>(number), settings);
-        const Camera camera = testing::camera_number(number);
+        const Camera camera = camera_number(number);
         const CameraMap map(camera);
         const Facets all =
             facets(scene, [&](Vec3 point) { return deviation * map.size_of_pixel(1, 1, point); });

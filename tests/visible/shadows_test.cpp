@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/accel/brute_force.h"
 #include "vera/scene/surface.h"
-#include "vera/visible/front_order.h"
+#include "vera/exact/front_order.h"
 #include "vera/visible/penetrations.h"
 #include "vera/visible/shadows.h"
 #include "vera/visible/visible_map.h"
@@ -17,8 +17,8 @@
 #include <vector>
 
 #include "accel/random_scene.h"
+#include "visible/cameras.h"
 #include "visible/map_turns.h"
-#include "visible/view_cameras.h"
 #include <gtest/gtest.h>
 
 namespace vera {

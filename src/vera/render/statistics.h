@@ -16,6 +16,7 @@ struct RenderStatistics {
     std::uint64_t mirrored_rays = 0; ///< total reflection included
     std::uint64_t refracted_rays = 0;
     std::uint64_t refined_pixels = 0; ///< by anti-aliasing
+    std::uint64_t parts = 0;          ///< of pixels, lit in place of view rays: see render_parts()
     QueryCounts queries;              ///< of all these rays
 
     RenderStatistics& operator+=(const RenderStatistics& more) {
@@ -26,6 +27,7 @@ struct RenderStatistics {
         mirrored_rays += more.mirrored_rays;
         refracted_rays += more.refracted_rays;
         refined_pixels += more.refined_pixels;
+        parts += more.parts;
         queries += more.queries;
         return *this;
     }

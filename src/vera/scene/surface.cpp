@@ -4,6 +4,7 @@
 #include "vera/base/check.h"
 #include "vera/scene/contour.h"
 #include "vera/scene/crossings.h"
+#include "vera/scene/primitive_location.h"
 
 #include <algorithm>
 #include <cmath>
@@ -177,43 +178,6 @@ SurfacePoint carried(const PrimitivePath& path, const SurfacePoint& local) {
     return world;
 }
 
-/// The item that holds the primitive with this number within the geometry, and how many primitives
-/// of the item come before it.
-struct Location {
-    std::uint32_t item = 0;
-    std::uint64_t within = 0;
-};
-
-Location location_among_compounds(const Geometry& geometry, std::uint64_t number) {
-    const auto& compounds = geometry.compounds;
-    const auto after = std::upper_bound(
-        compounds.begin(),
-        compounds.end(),
-        number,
-        [](std::uint64_t primitive, const Compound& compound) {
-            return primitive < compound.first_primitive;
-        });
-    if (after == compounds.begin())
-        return {static_cast<std::uint32_t>(number), 0};
-    const Compound& compound = *(after - 1);
-    const std::uint64_t within = number - compound.first_primitive;
-    // The items up to the next compound hold one primitive each.
-    const std::uint64_t end =
-        after == compounds.end() ? geometry.primitive_count : after->first_primitive;
-    const std::uint64_t next_item = after == compounds.end() ? geometry.items.size() : after->item;
-    const std::uint64_t single = next_item - compound.item - 1;
-    const std::uint64_t size = end - compound.first_primitive - single;
-    if (within < size)
-        return {compound.item, within};
-    return {static_cast<std::uint32_t>(compound.item + 1 + (within - size)), 0};
-}
-
-inline Location location_of(const Geometry& geometry, std::uint64_t number) {
-    if (geometry.compounds.empty())
-        return {static_cast<std::uint32_t>(number), 0};
-    return location_among_compounds(geometry, number);
-}
-
 } // namespace
 
 PrimitivePath path_to(const Scene& scene, std::uint64_t primitive) {
@@ -222,7 +186,7 @@ PrimitivePath path_to(const Scene& scene, std::uint64_t primitive) {
     std::uint64_t number = primitive;
     while (true) {
         VERA_CHECK(number < path.geometry->primitive_count);
-        const Location location = location_of(*path.geometry, number);
+        const PrimitiveLocation location = location_of(*path.geometry, number);
         const Item& item = path.geometry->items[location.item];
         if (item.material != inherited_material)
             path.material = item.material;
@@ -242,7 +206,8 @@ PrimitivePath path_to(const Scene& scene, std::uint64_t primitive) {
 
 namespace {
 
-SurfacePoint surface_in_main_scene(const Scene& scene, Location location, Vec3 point, FaceId face) {
+SurfacePoint
+surface_in_main_scene(const Scene& scene, PrimitiveLocation location, Vec3 point, FaceId face) {
     const Element element = {location.item, static_cast<std::uint32_t>(location.within)};
     SurfacePoint at = local_surface(scene.geometry, element, face.piece, point);
     at.material = scene.geometry.items[element.item].material;
@@ -265,7 +230,7 @@ SurfacePoint surface_in_main_scene(const Scene& scene, Location location, Vec3 p
 
 SurfacePoint surface_at(const Scene& scene, const Ray& ray, const Hit& hit) {
     VERA_CHECK(hit.face.primitive < scene.geometry.primitive_count);
-    const Location location = location_of(scene.geometry, hit.face.primitive);
+    const PrimitiveLocation location = location_of(scene.geometry, hit.face.primitive);
     const Vec3 point = point_at(ray, hit.t);
     if (scene.geometry.items[location.item].kind == ItemKind::subscene_call)
         return surface_in_subscene(scene, point, hit.face);

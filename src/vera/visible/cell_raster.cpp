@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/cell_raster.h"
 
+#include "vera/exact/front_order.h"
 #include "vera/visible/cells.h"
 #include "vera/visible/edges.h"
-#include "vera/visible/front_order.h"
 #include "vera/visible/sheets.h"
 
 #include <algorithm>

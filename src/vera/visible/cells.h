@@ -3,7 +3,7 @@
 
 #include "vera/base/parallel.h"
 #include "vera/exact/depth_plane.h"
-#include "vera/visible/front_order.h"
+#include "vera/exact/front_order.h"
 #include "vera/visible/screen_scene.h"
 
 #include <algorithm>

@@ -233,6 +233,13 @@ void check_numbers(const Facets& facets) {
     throw InputError({problem});
 }
 
+std::vector<std::uint64_t> primitives_of(const Facets& facets, const DrawnFaces& faces) {
+    std::vector<std::uint64_t> primitives;
+    for (const std::uint32_t facet : faces.first_facet)
+        primitives.push_back(facets.triangles[facet].primitive);
+    return primitives;
+}
+
 } // namespace
 
 DrawnScene draw_scene(
@@ -279,6 +286,8 @@ DrawnScene draw_scene(
             change, std::move(whole.pieces), screen, progress_part(progress, 2, steps), cancel);
     }
     const VisibleMap map = visible_map(screen, whole.pieces);
+    if (settings.check)
+        settings.check({map, primitives_of(all, faces), screen.cut_nearness});
 
     const Painted painted = {scene, camera, picture, settings, all, faces, map};
     drawn.drawing.width = picture.width;

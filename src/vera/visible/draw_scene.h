@@ -7,9 +7,11 @@
 #include "vera/scene/picture_settings.h"
 #include "vera/scene/scene.h"
 #include "vera/visible/shadows.h"
+#include "vera/visible/map_check.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 
 namespace vera {
 
@@ -34,6 +36,8 @@ struct DrawSettings {
     bool shadow_lines = false; ///< whether the borders of shadows are among the lines
     double deviation =
         0.1; ///< how far the plane facets of what is curved may lie off it, in pixels
+    /// Called, where there is one, with the map before anything is painted; may throw.
+    std::function<void(const PrimitiveMap& map)> check;
 };
 
 struct DrawnScene {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/penetrations.h"
 
+#include "vera/exact/front_order.h"
 #include "vera/visible/edges.h"
-#include "vera/visible/front_order.h"
 
 #include <array>
 #include <cmath>

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "visible/view_cameras.h"
+#pragma once
+
+#include "vera/scene/camera.h"
 
 #include <array>
 #include <cstddef>
 
 namespace vera::testing {
 
-Camera camera_number(int number) {
+/// Cameras all round a scene about the origin, some of parallel rays, some within it.
+inline Camera camera_number(int number) {
     const Vec3 to = normalized(std::array<Vec3, 5>{
         {{1, 0.3, 0.2},
          {-0.2, 1, 0.4},

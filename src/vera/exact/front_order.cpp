@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "vera/visible/front_order.h"
+#include "vera/exact/front_order.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "strategy.h"
+
+#include "vera/depth_buffer/depth_buffer.h"
+#include "vera/visible/drawn_faces.h"
+#include "vera/visible/map_raster.h"
+#include "vera/visible/penetrations.h"
+#include "vera/visible/projection.h"
+#include "vera/visible/visible_map.h"
+
+#include <algorithm>
+#include <bit>
+#include <numeric>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace vera {
+
+namespace {
+
+/// How far facets may lie off a curved surface, in pixels.
+constexpr double largest_deviation = 1.0 / 64;
+
+Facets
+facets_of(const PreparedScene& prepared, const CameraMap& camera_map, const CancelFlag& cancel) {
+    const PictureSettings& settings = prepared.settings;
+    const auto deviation = [&](Vec3 point) {
+        return largest_deviation * camera_map.size_of_pixel(settings.width, settings.height, point);
+    };
+    return facets(prepared.scene, deviation, &cancel);
+}
+
+/// Rectangles in a pixel, as many across as down, or twice as many.
+DepthSamples depth_samples(const PictureSettings& settings) {
+    DepthSamples samples = {settings.width, settings.height};
+    if (settings.antialiasing.on) {
+        const auto bits = static_cast<unsigned>(std::bit_width(settings.antialiasing.samples) - 1);
+        samples.down = std::size_t{1} << bits / 2;
+        samples.across = settings.antialiasing.samples / samples.down;
+    }
+    return samples;
+}
+
+SeenParts parts_of_depth_buffer(const PreparedScene& prepared, const CancelFlag& cancel) {
+    const CameraMap camera_map(prepared.camera);
+    SeenParts seen;
+    seen.facets = std::make_unique<const Facets>(facets_of(prepared, camera_map, cancel));
+    std::vector<std::uint32_t> sources(seen.facets->triangles.size());
+    std::iota(sources.begin(), sources.end(), 0U);
+    const ScreenScene screen = screen_scene(*seen.facets, camera_map, sources);
+    seen.cut_nearness = screen.cut_nearness;
+    std::vector<DepthTriangle> triangles;
+    triangles.reserve(screen.triangles.size());
+    for (const ScreenTriangle& triangle : screen.triangles)
+        triangles.push_back({corners_of(screen, triangle), triangle.source});
+    const auto buffer =
+        std::make_shared<const DepthBuffer>(triangles, depth_samples(prepared.settings));
+    seen.of_band = [buffer](std::size_t band, std::vector<PixelPart>& parts) {
+        buffer->add_parts(band, parts);
+    };
+    return seen;
+}
+
+SeenParts
+parts_of_map(const PreparedScene& prepared, const Progress& progress, const CancelFlag& cancel) {
+    const CameraMap camera_map(prepared.camera);
+    SeenParts seen;
+    seen.facets = std::make_unique<const Facets>(facets_of(prepared, camera_map, cancel));
+    DrawnFaces faces = drawn_faces(prepared.scene, *seen.facets, FaceUnit::plane);
+    ScreenScene screen = screen_scene(*seen.facets, camera_map, faces.of_facet);
+    seen.cut_nearness = screen.cut_nearness;
+    sort_by_place(screen);
+    const WholePieces whole = whole_pieces(screen, progress, &cancel);
+    seen.penetrating = whole.left;
+    const auto raster = std::make_shared<const MapRaster>(
+        visible_map(screen, whole.pieces), prepared.settings.width, prepared.settings.height);
+    seen.of_band = [raster,
+                    first_facet = std::move(faces.first_facet),
+                    has_areas = prepared.settings.antialiasing.on](
+                       std::size_t band, std::vector<PixelPart>& parts) {
+        const std::size_t first = parts.size();
+        if (has_areas)
+            raster->add_areas(band, parts);
+        else
+            raster->add_centers(band, parts);
+        for (PixelPart& part : std::span(parts).subspan(first))
+            if (part.source != PixelPart::background)
+                part.source = first_facet[part.source];
+    };
+    return seen;
+}
+
+} // namespace
+
+void add_strategy_option(CLI::App& command, StrategyRequest& request) {
+    command
+        .add_option(
+            "--strategy",
+            request.kind,
+            "what finds the visible surfaces: rays; visible: their exact outlines, each filled by "
+            "its exact part of a pixel; depth: a depth buffer")
+        ->type_name("rays|visible|depth")
+        ->check(CLI::IsMember({"rays", "visible", "depth"}).description(""))
+        ->capture_default_str();
+}
+
+void check_options(const StrategyRequest& request, const PictureOptions& options) {
+    if (request.is_rays())
+        return;
+    if (options.tolerance)
+        throw CommandLineError(fmt::format(
+            "--tolerance tells which pixels get more rays, and --strategy {} sends none through "
+            "pixels: leave it out",
+            request.kind));
+    if (request.kind == "visible" && options.samples)
+        throw CommandLineError("--strategy visible takes exact areas, not --samples: leave it out");
+}
+
+SeenParts seen_parts(
+    const StrategyRequest& request,
+    const PreparedScene& prepared,
+    const Progress& progress,
+    const CancelFlag& cancel) {
+    return request.kind == "depth" ? parts_of_depth_buffer(prepared, cancel)
+                                   : parts_of_map(prepared, progress, cancel);
+}
+
+bool needs_index(const StrategyRequest& request, const PreparedScene& prepared) {
+    const auto& materials = prepared.scene.materials;
+    const bool sends_on = prepared.settings.depth > 1
+        && std::any_of(materials.begin(), materials.end(), [](const Material& material) {
+                              return !is_black(material.rab) || !is_black(material.tab);
+                          });
+    return request.is_rays() || prepared.settings.shadows || prepared.settings.exposure || sends_on;
+}
+
+} // namespace vera

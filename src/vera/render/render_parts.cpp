@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vera/render/render_parts.h"
+
+#include "vera/accel/primitive_hit.h"
+#include "vera/image/develop.h"
+#include "vera/render/generations.h"
+#include "vera/render/raster.h"
+#include "vera/render/workspaces.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+
+namespace vera {
+
+namespace {
+
+/// What a thread needs for the bands that it renders, one after another.
+struct BandWork {
+    explicit BandWork(const TracedScene& traced)
+        : tracer(traced) {}
+
+    GenerationTracer tracer;
+    std::vector<PixelPart> parts;
+    std::vector<QueryRay> rays;
+    std::vector<Hit> hits;
+    std::vector<SurfacePoint> surfaces;
+    std::vector<Color> colors;
+    std::vector<Color> row;
+};
+
+/// Where the ray meets the facet's plane.
+double facet_t(const Facets& facets, const Facets::Triangle& facet, const Ray& ray) {
+    constexpr double grazing = 0x1p-10;
+    std::array<Vec3, 3> from_origin;
+    std::array<double, 3> along;
+    for (std::size_t i = 0; i < 3; ++i) {
+        from_origin[i] = facets.corners[facet.corners[i]] - ray.origin;
+        along[i] = dot(from_origin[i], ray.direction);
+    }
+    const Vec3 normal =
+        normalized(cross(from_origin[1] - from_origin[0], from_origin[2] - from_origin[0]));
+    const double speed = dot(normal, ray.direction);
+    const double t = dot(normal, from_origin[0]) / speed;
+    if (std::abs(speed) >= grazing)
+        return std::max(t, ray.t_min);
+    // Seen almost edge-on, it is badly known on the grid: then not beyond its corners.
+    const auto [least, most] = std::minmax_element(along.begin(), along.end());
+    return std::max(speed != 0 ? std::clamp(t, *least, *most) : *least, ray.t_min);
+}
+
+/// Where a ray through the middle of a part meets what is seen there.
+Hit hit_in_part(const Scene& scene, const Facets& facets, const PixelPart& part, const Ray& ray) {
+    if (part.source == PixelPart::background)
+        return {};
+    const Facets::Triangle& facet = facets.triangles[part.source];
+    const Hit hit = primitive_hit(scene, ray, facet.primitive);
+    if (hit.found())
+        return hit;
+    // Beside a silhouette the facet sticks out by a step of the grid, and the middle of a part that
+    // is not convex lies outside of it. The facet's own place there is moved onto the surface when
+    // it is asked for its normal.
+    return {facet_t(facets, facet, ray), {facet.primitive, facet.piece}};
+}
+
+void find_hits(const Scene& scene, const Facets& facets, const Raster& raster, BandWork& work) {
+    work.rays.resize(work.parts.size());
+    work.hits.resize(work.parts.size());
+    work.surfaces.resize(work.parts.size());
+    work.colors.resize(work.parts.size());
+    for (std::size_t i = 0; i < work.parts.size(); ++i) {
+        const PixelPart& part = work.parts[i];
+        work.rays[i] = raster.ray(part.x, part.y, {part.across, part.down});
+        work.hits[i] = hit_in_part(scene, facets, part, work.rays[i].ray);
+    }
+    work.tracer.surfaces(work.rays, work.hits, work.surfaces);
+}
+
+/// Averages the parts of each pixel.
+void develop_parts(const PictureSettings& settings, BandWork& work, Image& image) {
+    for (std::size_t i = 0; i < work.parts.size();) {
+        const std::uint32_t y = work.parts[i].y;
+        work.row.assign(settings.width, {});
+        for (; i < work.parts.size() && work.parts[i].y == y; ++i) {
+            const PixelPart& part = work.parts[i];
+            work.row[part.x] +=
+                settings.antialiasing.on ? part.area * clamped(work.colors[i]) : work.colors[i];
+        }
+        develop(work.row, image, 0, y);
+    }
+}
+
+} // namespace
+
+RenderResult render_parts(
+    const Scene& scene,
+    const Camera& camera,
+    const RayIndex& index,
+    const PictureParts& seen,
+    const PictureSettings& settings,
+    SampleType sample_type,
+    const Progress& progress,
+    const CancelFlag* cancel) {
+    RenderResult result;
+    TracedScene traced = traced_scene(scene, index, settings, cancel);
+    if (settings.exposure)
+        result.exposure = expose(traced, camera, *settings.exposure, result.statistics);
+
+    const Raster raster = {ViewRays(camera), settings.width, settings.height};
+    result.image = blank_image(raster.width, raster.height, sample_type);
+    const PixelBands bands = {settings.width, settings.height};
+    ProgressMeter done(progress, static_cast<double>(bands.count()));
+    Workspaces<BandWork> workspaces([&] { return std::make_unique<BandWork>(traced); });
+    parallel_ranges(bands.count(), 1, [&](std::size_t first, std::size_t last) {
+        workspaces.lend([&](BandWork& work) {
+            for (std::size_t band = first; band < last; ++band) {
+                if (cancel != nullptr)
+                    cancel->throw_if_raised();
+                work.parts.clear();
+                seen.of_band(band, work.parts);
+                find_hits(scene, seen.facets, raster, work);
+                work.tracer.shade(work.rays, work.hits, work.surfaces, work.colors);
+                work.tracer.statistics.parts += work.parts.size();
+                develop_parts(settings, work, result.image);
+                done.add(1);
+            }
+        });
+    });
+    workspaces.for_each([&](const BandWork& work) { result.statistics += work.tracer.statistics; });
+    return result;
+}
+
+} // namespace vera

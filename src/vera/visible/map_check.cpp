@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vera/visible/map_check.h"
+
+#include "vera/accel/primitive_hit.h"
+#include "vera/base/random.h"
+#include "vera/scene/surface.h"
+#include "vera/visible/map_locator.h"
+#include "vera/visible/projection.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace vera {
+
+namespace {
+
+/// How far, in pixels, what is exact may be off: 16 steps of the grid in a picture of 4096 pixels,
+/// 128 in one of 512.
+constexpr double exact_reach = 1.0 / 64;
+
+/// What all points are compared by.
+struct Comparison {
+    const PrimitiveMap& drawn;
+    const Scene& scene;
+    const CameraMap camera_map;
+    const ViewRays view_rays;
+    const RayIndex& index;
+    const MapCheckSettings& settings;
+    const MapLocator locator;
+};
+
+/// Number i of those that cover the picture, as parts of its width and height.
+std::array<double, 2> point_number(std::uint64_t i) {
+    const auto part = [&](std::uint64_t axis) {
+        return static_cast<double>(random(0, i, axis) >> 11U) * 0x1p-53;
+    };
+    return {part(0), part(1)};
+}
+
+/// Through that point, from where on the map shows things.
+QueryRay ray_through(const Comparison& all, double x, double y) {
+    QueryRay query;
+    query.ray = all.view_rays.ray(x, y);
+    if (all.drawn.cut_nearness > 0)
+        query.ray.t_min =
+            all.drawn.cut_nearness / all.camera_map.image_point(point_at(query.ray, 1)).w;
+    return query;
+}
+
+bool is_curved(const Scene& scene, std::uint64_t primitive) {
+    if (primitive == no_primitive)
+        return false;
+    const PrimitivePath path = path_to(scene, primitive);
+    const ItemKind kind = path.geometry->items[path.element.item].kind;
+    return kind == ItemKind::sphere || kind == ItemKind::rotational_shape;
+}
+
+/// How far the two surfaces are from each other where the ray meets them, across the one that it
+/// meets more steeply; infinite where it meets one of them alone.
+double gap(const Scene& scene, const Ray& ray, const Hit& traced, std::uint64_t drawn) {
+    if (!traced.found() || drawn == no_primitive)
+        return std::numeric_limits<double>::infinity();
+    const Hit other = primitive_hit(scene, ray, drawn);
+    if (!other.found())
+        return std::numeric_limits<double>::infinity();
+    const auto across = [&](const Hit& hit) {
+        return std::abs(dot(surface_at(scene, ray, hit).geometric_normal, ray.direction));
+    };
+    return std::abs(other.t - traced.t) * std::min(across(traced), across(other));
+}
+
+/// Whether the grid and the facets explain the difference.
+bool is_explained(
+    const Comparison& all, const MapDifference& difference, const Ray& ray, const Hit& traced) {
+    const MapCheckSettings& settings = all.settings;
+    const bool has_facets =
+        is_curved(all.scene, difference.drawn) || is_curved(all.scene, difference.traced);
+    const double reach = exact_reach + (has_facets ? settings.deviation : 0);
+    const double steps_across = screen_size / settings.width;
+    const double steps_down = screen_size / settings.height;
+    if (all.locator.has_side_near(
+            difference.x * steps_across,
+            difference.y * steps_down,
+            reach * steps_across,
+            reach * steps_down))
+        return true;
+    const double apart = gap(all.scene, ray, traced, difference.drawn);
+    if (!difference.is_sound || !std::isfinite(apart))
+        return false;
+    const double pixel =
+        all.camera_map.size_of_pixel(settings.width, settings.height, point_at(ray, traced.t));
+    return apart <= reach * pixel;
+}
+
+void compare(const Comparison& all, std::uint64_t number, QueryCounts& counts, MapCheck& result) {
+    ++result.points;
+    const auto [x, y] = point_number(number);
+    const std::array<QueryRay, 1> ray = {ray_through(all, x, y)};
+    std::array<Hit, 1> traced;
+    all.index.nearest_hits(ray, traced, counts);
+    const MapPlace shown = all.locator.at(x * screen_size, y * screen_size);
+    const MapDifference difference = {
+        x * all.settings.width,
+        y * all.settings.height,
+        shown.source == no_source ? no_primitive : all.drawn.primitives[shown.source],
+        traced[0].face.primitive,
+        shown.is_sound};
+    if (shown.is_sound && difference.drawn == difference.traced)
+        return;
+    if (is_explained(all, difference, ray[0].ray, traced[0])) {
+        ++result.near;
+        return;
+    }
+    ++result.far;
+    if (!result.first_far)
+        result.first_far = difference;
+}
+
+} // namespace
+
+MapCheck check_map(
+    const PrimitiveMap& drawn,
+    const Scene& scene,
+    const Camera& camera,
+    const RayIndex& index,
+    const MapCheckSettings& settings,
+    const CancelFlag* cancel) {
+    constexpr std::size_t part = 256; // points
+    const Comparison all = {
+        drawn, scene, CameraMap(camera), ViewRays(camera), index, settings, MapLocator(drawn.map)};
+    std::vector<MapCheck> parts((settings.points + part - 1) / part);
+    parallel_ranges(parts.size(), 1, [&](std::size_t first, std::size_t last) {
+        QueryCounts counts;
+        for (std::size_t i = first; i < last; ++i) {
+            if (cancel != nullptr)
+                cancel->throw_if_raised();
+            const std::size_t end = std::min(settings.points, (i + 1) * part);
+            for (std::size_t point = i * part; point < end; ++point)
+                compare(all, point, counts, parts[i]);
+        }
+    });
+    MapCheck result;
+    for (const MapCheck& of_part : parts) {
+        result.points += of_part.points;
+        result.near += of_part.near;
+        result.far += of_part.far;
+        if (!result.first_far)
+            result.first_far = of_part.first_far;
+    }
+    return result;
+}
+
+} // namespace vera
