@@ -23,6 +23,7 @@ namespace {
 
 using testing::layers;
 using testing::scattered;
+using testing::tangle;
 using testing::terrain;
 using testing::turns_about;
 
@@ -181,21 +182,6 @@ seen_around(const ScreenScene& scene, std::int64_t x_in_halves, std::int64_t y_i
         if (seen_at(scene, x_in_halves + x, y_in_halves + y).source != middle.source)
             return std::nullopt;
     return middle;
-}
-
-/// Triangles anywhere at any depth, which pass through each other.
-ScreenScene tangle(std::uint64_t seed, std::size_t count) {
-    std::mt19937_64 random(seed);
-    ScreenScene scene;
-    for (std::uint32_t i = 0; i < count; ++i) {
-        for (int corner = 0; corner < 3; ++corner)
-            scene.vertices.push_back(
-                {{static_cast<std::int32_t>(random() % (screen_size + 1)),
-                  static_cast<std::int32_t>(random() % (screen_size + 1))},
-                 static_cast<std::int64_t>(random() % (depth_size + 1))});
-        add_triangle(scene, {3 * i, 3 * i + 1, 3 * i + 2}, i);
-    }
-    return scene;
 }
 
 TEST(VisibleMap, ShowsLikeBruteForceWhatPenetratesButForAFewSteps) {
