@@ -261,7 +261,10 @@ color_of(const Painted& painted, std::uint32_t face, std::span<const VisibleMap:
 
 void add_fills(const Painted& painted, Drawing& drawing) {
     const FaceRings all(painted.map);
-    const std::vector<bool> is_covering_whole = covering_whole(painted, all);
+    // Numbers are to be compared, not looked at: the colour says all, and the file stays small.
+    const bool is_looked_at = painted.settings.style != DrawingStyle::ids;
+    const std::vector<bool> is_covering_whole =
+        is_looked_at ? covering_whole(painted, all) : std::vector<bool>();
     std::uint64_t grouped = 0;
     std::string group;
     for (std::size_t number = 0; number < all.count(); ++number) {
@@ -271,8 +274,7 @@ void add_fills(const Painted& painted, Drawing& drawing) {
         const std::uint64_t primitive = painted.facets.triangles[facet].primitive;
         FilledOutline outline;
         outline.color = color_of(painted, face, own);
-        // Numbers are to be compared, not looked at: the colour says all, and the file stays small.
-        if (painted.settings.style != DrawingStyle::ids) {
+        if (is_looked_at) {
             if (group.empty() || primitive != grouped)
                 group = group_name(painted.scene, primitive);
             grouped = primitive;
@@ -280,11 +282,11 @@ void add_fills(const Painted& painted, Drawing& drawing) {
             outline.group = group;
         }
         add_rings(painted, own, outline);
-        if (painted.settings.style != DrawingStyle::ids)
+        if (is_looked_at)
             cover_seams(painted, all, is_covering_whole, own, outline);
         drawing.fills.push_back(std::move(outline));
     }
-    if (painted.settings.style != DrawingStyle::ids)
+    if (is_looked_at)
         add_underlays(painted, all, drawing);
 }
 
