@@ -261,19 +261,26 @@ def draw_drawings(results):
 
 
 def draw_drawing_costs(results):
-    """VERA alone, a curve for each family: drawing, by triangles and by what is seen; memory; files."""
+    """VERA alone, a curve for each family: drawing, by triangles, by crossings and by what is seen; memory."""
     families = families_of(results["rows"])
     colours = dict(zip(families, FAMILY_COLOURS))
     drawing = titled(WIDTH, 84 + 240, "What drawing takes, by family", "", list(colours.items()))
-    panels = [("seconds of drawing alone", "triangles", None, "draw"),
-              ("the same, by what is seen", "bytes of the drawing", "file", "draw"),
-              ("peak memory, bytes", "triangles", None, "bytes"), ("the drawing, bytes", "triangles", None, "file")]
-    for frame, (title, axis, across, quantity) in zip(frames(4, 4, WIDTH, 84, 170, gap=(48, 70)), panels):
+    panels = [("seconds of drawing alone", "triangles", "draw"),
+              ("the same, by what crosses", "pairs of sides that cross", "draw"),
+              ("the same, by what is seen", "bytes of the drawing", "draw"),
+              ("peak memory, bytes", "triangles", "bytes")]
+    for frame, (title, axis, quantity) in zip(frames(4, 4, WIDTH, 84, 170, gap=(48, 70)), panels):
         curves = []
         for family in families:
-            found = [(row["triangles"], row["programs"]["vera"]) for row in results["rows"] if row["family"] == family]
-            points = [(ours[across] if across else count, ours[quantity]) for count, ours in found]
-            curves.append({**curve_of(family, points), "exponent": None})
+            points = []
+            for row in results["rows"]:
+                ours = row["programs"]["vera"]
+                across = {"triangles": row["triangles"], "pairs of sides that cross": row["crossings"],
+                          "bytes of the drawing": ours["file"]}[axis]
+                if row["family"] == family and across:
+                    points.append((across, ours[quantity]))
+            if points:
+                curves.append({**curve_of(family, points), "exponent": None})
         curve_panel(drawing, frame, title, curves, colours, axis)
     return drawing.as_text()
 

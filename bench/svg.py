@@ -158,7 +158,7 @@ def curve_panel(drawing, frame, title, curves, colours, axis="triangles"):
     colour for each index. The axis is what goes to the right."""
     first, last = decades([x for curve in curves for x in curve["triangles"]])
     lowest, highest = decades([y for curve in curves for y in curve["values"]])
-    highest = max(highest, lowest + 1)
+    last, highest = max(last, first + 1), max(highest, lowest + 1)
     across = frame.width / (last - first)
     upward = frame.height / (highest - lowest)
 

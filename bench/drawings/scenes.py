@@ -143,3 +143,39 @@ def scene_of(family, count, folder):
     name = f"{family.replace(' ', '_')}_{count}"
     corners, faces = write_scene(folder, name, FAMILIES[family](count))
     return folder / name, corners, faces
+
+
+def crossings(corners, faces, samples=500):
+    """How many pairs of sides cross, about: those of some sides are counted."""
+    sides = list({(min(a, b), max(a, b)) for face in faces for a, b in zip(face, face[1:] + face[:1])})
+    count = max(1, math.isqrt(len(sides)))
+
+    def cells(side):
+        """Of a raster, those along the side."""
+        (x0, y0, _), (x1, y1, _) = corners[side[0] - 1], corners[side[1] - 1]
+        steps = int(max(abs(x1 - x0), abs(y1 - y0)) * count) + 1
+        found = set()
+        for i in range(steps):
+            xs = sorted((x0 + (x1 - x0) * (i + part) / steps) * count for part in (0, 1))
+            ys = sorted((y0 + (y1 - y0) * (i + part) / steps) * count for part in (0, 1))
+            found.update((column, row) for column in range(int(xs[0]), int(xs[1]) + 1)
+                         for row in range(int(ys[0]), int(ys[1]) + 1))
+        return found
+
+    def turn(a, b, c):
+        return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+
+    def cross(side, other):
+        if set(side) & set(other):
+            return False
+        a, b, c, d = (corners[i - 1] for i in (*side, *other))
+        return turn(a, b, c) * turn(a, b, d) < 0 and turn(c, d, a) * turn(c, d, b) < 0
+
+    chosen = random.Random("crossings").sample(sides, min(samples, len(sides)))
+    wanted = {cell for side in chosen for cell in cells(side)}
+    raster = {cell: [] for cell in wanted}
+    for side in sides:
+        for cell in cells(side) & wanted:
+            raster[cell].append(side)
+    met = sum(cross(side, other) for side in chosen for other in {each for cell in cells(side) for each in raster[cell]})
+    return met * len(sides) / len(chosen) / 2
