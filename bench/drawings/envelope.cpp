@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// envelope_peer MESH.obj OUT.svg PIXELS: the upper envelope of a mesh's triangles by CGAL's Envelope_3, seen along -z by
-// parallel rays, the square from (0, 0) to (1, 1). Each triangle has the colour of its number, from 1 on.
+// envelope_peer MESH.obj OUT.svg PIXELS: the upper envelope of a mesh's triangles by CGAL's
+// Envelope_3, seen along -z by parallel rays, the square from (0, 0) to (1, 1). Each triangle has
+// the colour of its number, from 1 on.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -64,7 +65,8 @@ void add_ring(Diagram::Ccb_halfedge_const_circulator first, double pixels, std::
 void write(const Diagram& diagram, double pixels, const char* path) {
     std::ofstream file(path);
     file << fmt::format(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {0}\" fill-rule=\"evenodd\">\n",
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {0}\" "
+        "fill-rule=\"evenodd\">\n",
         pixels);
     for (auto face = diagram.faces_begin(); face != diagram.faces_end(); ++face) {
         if (face->is_unbounded() || face->number_of_surfaces() == 0)

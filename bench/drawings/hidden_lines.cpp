@@ -1,6 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// hidden_lines_peer MESH.obj OUT.svg PIXELS: the visible edges of a mesh by OpenCASCADE's hidden line removal for
-// polyhedra, seen along -z by parallel rays, the square from (0, 0) to (1, 1).
+// hidden_lines_peer MESH.obj OUT.svg PIXELS: the visible edges of a mesh by OpenCASCADE's hidden
+// line removal for polyhedra, seen along -z by parallel rays, the square from (0, 0) to (1, 1).
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include <BRepAdaptor_Curve.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
@@ -14,19 +24,8 @@
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Shell.hxx>
-#include <gp_Ax2.hxx>
-
-#include <algorithm>
-#include <array>
-#include <cstdio>
-#include <cstdlib>
-#include <fstream>
-#include <map>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include <fmt/format.h>
+#include <gp_Ax2.hxx>
 
 namespace {
 
@@ -51,7 +50,8 @@ public:
 private:
     TopoDS_Edge edge(std::size_t from, std::size_t to) {
         const bool is_reversed = from > to;
-        const auto [place, is_new] = edges_.try_emplace(std::pair(std::min(from, to), std::max(from, to)));
+        const auto [place, is_new] =
+            edges_.try_emplace(std::pair(std::min(from, to), std::max(from, to)));
         if (is_new)
             place->second = BRepBuilderAPI_MakeEdge(
                 corners_.at(place->first.first), corners_.at(place->first.second));
