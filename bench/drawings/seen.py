@@ -47,10 +47,16 @@ def distance_squared(x, y, a, b):
     return (a[0] + part * u - x)**2 + (a[1] + part * v - y)**2
 
 
-def seen_truly(corners, faces, points, margin, depth_margin=1e-6):
-    """What is seen at each point by asking every triangle; None where a side passes within the margin, or two
-    triangles are nearly equally near."""
-    best = [[(-math.inf, 0)] for _ in points.points]
+def slope(a, b, c, area):
+    """By how much the depth of the triangle's plane changes along the picture, at most."""
+    u, v, w, z = b[0] - a[0], b[1] - a[1], c[0] - a[0], c[1] - a[1]
+    return math.hypot((b[2] - a[2]) * z - (c[2] - a[2]) * v, (c[2] - a[2]) * u - (b[2] - a[2]) * w) / abs(area)
+
+
+def seen_truly(corners, faces, points, margin):
+    """What is seen at each point by asking every triangle; None where a side, or where the two nearest pass through each
+    other, may lie within the margin."""
+    best = [[(-math.inf, 0, 0)] for _ in points.points]
     doubtful = [False] * len(points.points)
     for number, face in enumerate(faces, 1):
         a, b, c = (corners[i - 1] for i in face)
@@ -63,11 +69,11 @@ def seen_truly(corners, faces, points, margin, depth_margin=1e-6):
             u = ((b[0] - x) * (c[1] - y) - (b[1] - y) * (c[0] - x)) / area if area else -1
             v = ((c[0] - x) * (a[1] - y) - (c[1] - y) * (a[0] - x)) / area if area else -1
             if u > 0 and v > 0 and u + v < 1:
-                best[i].append((u * a[2] + v * b[2] + (1 - u - v) * c[2], number))
+                best[i].append((u * a[2] + v * b[2] + (1 - u - v) * c[2], number, slope(a, b, c, area)))
     result = []
     for i, found in enumerate(best):
-        first, second = (sorted(found, reverse=True) + [(-math.inf, 0)])[:2]
-        close = second[1] != 0 and first[0] - second[0] < depth_margin
+        first, *others = sorted(found, reverse=True)
+        close = any(first[0] - other[0] <= margin * (first[2] + other[2]) for other in others)
         result.append(None if doubtful[i] or close else first[1])
     return result
 
