@@ -15,7 +15,7 @@ import statistics
 import sys
 
 from machine import RESULTS, ROOT, fail, machine
-from svg import BLUE, GOLD, GREEN, GREY, SKY, bar_panel, curve_panel, frames, significant, titled
+from svg import BLUE, GOLD, GREEN, GREY, INK, SKY, bar_panel, curve_panel, frames, significant, titled
 
 DOCUMENT = ROOT / "docs/performance.md"
 IMAGES = ROOT / "docs/images"
@@ -33,15 +33,16 @@ class Results:
 
     def __init__(self, name):
         self.machine = name
-        self.peers, self.rays, self.growth, self.billion = (
-            self.load(kind) for kind in ("peers", "rays", "growth", "billion"))
+        self.peers, self.rays, self.growth, self.billion, self.drawings, self.leaks, self.sizes = (
+            self.load(kind) for kind in ("peers", "rays", "growth", "billion", "drawings", "leaks", "sizes"))
 
     def load(self, kind):
         path = RESULTS / f"{kind}-{self.machine}.json"
         return json.loads(path.read_text()) if path.exists() else None
 
     def parts(self):
-        return [part for part in (self.peers, self.rays, self.growth, self.billion) if part]
+        return [part for part in (self.peers, self.rays, self.growth, self.billion, self.drawings, self.leaks,
+                                  self.sizes) if part]
 
     def rays_on(self, threads):
         """The measurement with so many threads; None where there is none."""
@@ -216,6 +217,74 @@ def draw_peers(results):
                      min(2, len(panels)), "times as fast")
 
 
+# What bench/drawings wrote.
+
+DRAWING = {"vera": "VERA", "envelope": "CGAL's Envelope_3", "three": "three.js", "sketch": "sketch",
+           "OCCT": "OpenCASCADE"}
+DRAWING_COLOURS = {"vera": BLUE, "envelope": GOLD, "three": GREEN, "sketch": GREY, "OCCT": SKY}
+FAMILY_COLOURS = (BLUE, GREEN, SKY, GOLD, GREY, INK)
+
+
+def families_of(rows):
+    return list(dict.fromkeys(row["family"] for row in rows))
+
+
+def slope(curve):
+    """The power of the triangles that the values grow by; None of one point."""
+    xs, ys = [[math.log(value) for value in curve[key]] for key in ("triangles", "values")]
+    if len(xs) < 2:
+        return None
+    x, y = statistics.fmean(xs), statistics.fmean(ys)
+    return sum((a - x) * (b - y) for a, b in zip(xs, ys)) / sum((a - x)**2 for a in xs)
+
+
+def curve_of(index, points):
+    curve = {"index": index, "triangles": [x for x, _ in points], "values": [y for _, y in points]}
+    return {**curve, "exponent": slope(curve)}
+
+
+def draw_drawings(results):
+    """A panel for each family, and one for each family of lines; a curve for each program."""
+    groups = [(family, [row for row in results["rows"] if row["family"] == family])
+              for family in families_of(results["rows"])]
+    groups += [(f"{family}, lines", [row for row in results["lines"] if row["family"] == family])
+               for family in families_of(results["lines"])]
+    names = [name for name in DRAWING if any(row["programs"].get(name) for _, rows in groups for row in rows)]
+    rows_of_panels = math.ceil(len(groups) / 4)
+    drawing = titled(WIDTH, 84 + rows_of_panels * 240, "Seconds to draw, reading and writing included",
+                     "fitted: n to the power of", [(DRAWING[name], DRAWING_COLOURS[name]) for name in names])
+    for frame, (title, rows) in zip(frames(4, len(groups), WIDTH, 84, 170, gap=(48, 70)), groups):
+        curves = [curve_of(name, [(row["triangles"], row["programs"][name]["seconds"]) for row in rows
+                                  if row["programs"].get(name)]) for name in names]
+        curve_panel(drawing, frame, title, [curve for curve in curves if curve["values"]], DRAWING_COLOURS)
+    return drawing.as_text()
+
+
+def draw_drawing_costs(results):
+    """VERA alone, a curve for each family: drawing, by triangles, by crossings and by what is seen; memory."""
+    families = families_of(results["rows"])
+    colours = dict(zip(families, FAMILY_COLOURS))
+    drawing = titled(WIDTH, 84 + 240, "What drawing takes, by family", "", list(colours.items()))
+    panels = [("seconds of drawing alone", "triangles", "draw"),
+              ("the same, by what crosses", "pairs of sides that cross", "draw"),
+              ("the same, by what is seen", "bytes of the drawing", "draw"),
+              ("peak memory, bytes", "triangles", "bytes")]
+    for frame, (title, axis, quantity) in zip(frames(4, 4, WIDTH, 84, 170, gap=(48, 70)), panels):
+        curves = []
+        for family in families:
+            points = []
+            for row in results["rows"]:
+                ours = row["programs"]["vera"]
+                across = {"triangles": row["triangles"], "pairs of sides that cross": row["crossings"],
+                          "bytes of the drawing": ours["file"]}[axis]
+                if row["family"] == family and across:
+                    points.append((across, ours[quantity]))
+            if points:
+                curves.append({**curve_of(family, points), "exponent": None})
+        curve_panel(drawing, frame, title, curves, colours, axis)
+    return drawing.as_text()
+
+
 def plots(results):
     """The text of every plot by its file's name."""
     drawn = {}
@@ -231,6 +300,9 @@ def plots(results):
         drawn[f"bench-growth-{family['name']}"] = draw_growth(family)
     if results.peers:
         drawn["bench-peers"] = draw_peers(results.peers["results"])
+    if results.drawings:
+        drawn["bench-drawings"] = draw_drawings(results.drawings)
+        drawn["bench-drawings-costs"] = draw_drawing_costs(results.drawings)
     return {name: text for name, text in drawn.items() if text}
 
 
@@ -373,7 +445,66 @@ def billion_table(results):
                    f"{found['peak_bytes'] / 2**20:.0f}"]])
 
 
-TABLES = {"machine": machine_table, "means": means_table, "rates": rates_table, "one ray": one_ray_table,
+def share(value):
+    return "" if value is None else "0" if value == 0 else f"{100 * value:.2f} %"
+
+
+def drawings_table(results):
+    rows = []
+    for row in results.drawings["rows"] if results.drawings else []:
+        ours = row["programs"]["vera"]
+        cells = [row["family"], str(row["triangles"]), cell(ours["seconds"]), cell(ours["draw"]),
+                 cell((ours["bytes"] - ours["file"]) / row["triangles"]), cell(ours["file"] / 1e6)]
+        for name in ("envelope", "three", "sketch"):
+            found = row["programs"].get(name)
+            cells += [cell(found["seconds"]), cell(found["seconds"] / ours["seconds"], 2), share(found.get("wrong"))] \
+                if found else ["", "", ""]
+        cells.insert(6, share(ours.get("wrong")))
+        rows.append(cells)
+    head = ["fills", "triangles", "seconds", "of them drawing", "memory, bytes each", "MB written", "wrong",
+            "Envelope_3", "ratio", "wrong", "three.js", "ratio", "wrong", "sketch", "ratio", "wrong"]
+    return table(head, rows) if rows else None
+
+
+def drawn_lines_table(results):
+    rows = []
+    for row in results.drawings["lines"] if results.drawings else []:
+        ours, theirs = row["programs"]["vera"], row["programs"].get("OCCT")
+        rows.append([row["family"], str(row["triangles"]), cell(ours["seconds"]), cell(theirs and theirs["seconds"]),
+                     cell(theirs and theirs["seconds"] / ours["seconds"], 2)])
+    return table(["lines", "triangles", "seconds", "OpenCASCADE", "ratio"], rows) if rows else None
+
+
+def drawing_exponents_table(results):
+    fits = results.drawings["exponents"] if results.drawings else []
+    quantities = {"seconds": "seconds", "draw": "of them drawing", "bytes": "peak memory", "file": "bytes written"}
+    rows = []
+    for family in families_of(fits):
+        found = {fit["quantity"]: fit for fit in fits if fit["family"] == family}
+        rows.append([family, *(f"{found[name]['exponent']:.2f} ± {found[name]['half_interval']:.2f}"
+                               for name in quantities)])
+    return table(["n to the power of", *quantities.values()], rows) if rows else None
+
+
+def leaks_table(results):
+    rows = []
+    found = results.leaks["rows"] if results.leaks else []
+    for zoom in sorted({row["zoom"] for row in found}):
+        chosen = [row for row in found if row["zoom"] == zoom]
+        rows.append([f"{zoom:g}", str(len(chosen)), str(sum(row["interior"] for row in chosen)), *(
+            str(sum(row["programs"][name]["pixels"] for row in chosen)) for name in chosen[0]["programs"])])
+    head = ["times its size", "scenes", "interior pixels", *(found[0]["programs"] if found else [])]
+    return table(head, rows) if rows else None
+
+
+def sizes_table(results):
+    rows = [[row["scene"], str(row["regions"]), str(row["bytes"]), f"{row['bytes'] / row['needed']:.3f}"]
+            for row in (results.sizes["rows"] if results.sizes else [])]
+    return table(["scene", "regions", "bytes", "by what they need"], rows) if rows else None
+
+
+TABLES = {"drawings": drawings_table, "drawn lines": drawn_lines_table, "drawing exponents": drawing_exponents_table,
+          "leaks": leaks_table, "sizes": sizes_table, "machine": machine_table, "means": means_table, "rates": rates_table, "one ray": one_ray_table,
           "builds": builds_table, "exponents": exponents_table, "peers": peers_table, "tachyon": tachyon_table,
           "billion": billion_table}
 

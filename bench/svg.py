@@ -153,12 +153,12 @@ def power_of_ten(drawing, x, y, power, anchor):
         drawing.text(x, y, "10", 10, anchor, FAINT, above=str(power))
 
 
-def curve_panel(drawing, frame, title, curves, colours):
-    """Curves on logarithmic axes: each a dictionary of index, triangles, values and exponent; a colour for each
-    index."""
+def curve_panel(drawing, frame, title, curves, colours, axis="triangles"):
+    """Curves on logarithmic axes: each a dictionary of index, triangles, values and exponent, or None for none; a
+    colour for each index. The axis is what goes to the right."""
     first, last = decades([x for curve in curves for x in curve["triangles"]])
     lowest, highest = decades([y for curve in curves for y in curve["values"]])
-    highest = max(highest, lowest + 1)
+    last, highest = max(last, first + 1), max(highest, lowest + 1)
     across = frame.width / (last - first)
     upward = frame.height / (highest - lowest)
 
@@ -174,10 +174,11 @@ def curve_panel(drawing, frame, title, curves, colours):
         x = place(10.0**power, 10.0**lowest)[0]
         drawing.line(x, frame.top, x, frame.bottom)
         power_of_ten(drawing, x, frame.bottom + 16, power, "middle")
-    drawing.text((frame.left + frame.right) / 2, frame.bottom + 32, "triangles", 10, fill=FAINT)
+    drawing.text((frame.left + frame.right) / 2, frame.bottom + 32, axis, 10, fill=FAINT)
     for i, curve in enumerate(curves):
         colour = colours[curve["index"]]
         drawing.curve([place(x, y) for x, y in zip(curve["triangles"], curve["values"])], colour)
-        drawing.text(frame.left + 8, frame.top + 14 + 14 * i, "n", 11, "start", colour, "bold",
-                     above=f"{curve['exponent']:.2f}")
+        if curve["exponent"] is not None:
+            drawing.text(frame.left + 8, frame.top + 14 + 14 * i, "n", 11, "start", colour, "bold",
+                         above=f"{curve['exponent']:.2f}")
     drawing.line(frame.left, frame.bottom, frame.right, frame.bottom, FAINT)

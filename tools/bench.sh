@@ -8,6 +8,9 @@ bench_usage() {
 ./dev bench rays ...     builds and rays a second, against Embree
 ./dev bench growth ...   how times and counted steps grow with the number of triangles
 ./dev bench billion ...  a scene of a billion triangles in less than a gigabyte
+./dev bench drawings ... drawings, against CGAL, three.js, sketch and OpenCASCADE
+./dev bench leaks ...    whether the background shines through drawings, in five programs
+./dev bench sizes ...    how large drawings are beside what they need
 ./dev bench plots ...    plots and tables of docs/performance.md from the results
 ./dev bench PART --help  says what the part takes
 
@@ -44,6 +47,28 @@ bench_billion() {
     step "render a billion triangles" bench/billion "$@"
 }
 
+bench_drawings() {
+    step "install peers" install_packages drawings
+    # npm comes with the nodejs of others, which Debian's npm conflicts with.
+    command -v npm >/dev/null || install_packages npm
+    # shellcheck disable=SC2046 # one option or none
+    step "build" build release $(without_tests) -DVERA_BUILD_BENCHMARKS=ON -- vera envelope_peer hidden_lines_peer
+    step "compare drawings" bench/drawings/compare "$@"
+}
+
+bench_leaks() {
+    step "install viewers" install_packages drawings
+    # shellcheck disable=SC2046 # one option or none
+    step "build" build release $(without_tests) -- vera
+    step "look for what shines through" bench/drawings/leaks "$@"
+}
+
+bench_sizes() {
+    # shellcheck disable=SC2046 # one option or none
+    step "build" build release $(without_tests) -- vera
+    step "weigh drawings" bench/drawings/sizes "$@"
+}
+
 bench_plots() {
     step "plots and tables" bench/plots.py "$@"
 }
@@ -51,7 +76,7 @@ bench_plots() {
 bench() {
     case ${1:-} in
     --help | -h) bench_usage ;;
-    peers | rays | growth | billion | plots)
+    peers | rays | growth | billion | drawings | leaks | sizes | plots)
         step "install packages" install_packages build bench
         "bench_$1" "${@:2}"
         ;;
@@ -61,6 +86,9 @@ bench() {
         bench_rays
         bench_growth
         bench_billion
+        bench_drawings
+        bench_leaks
+        bench_sizes
         bench_plots
         ;;
     *)

@@ -254,6 +254,9 @@ void draw(const Request& request, const Console& console) {
     settings.deviation = number_of("--deviation", request.deviation, 1e-4, 100);
     DrawingSettings file_settings;
     file_settings.precision = number_of("--precision", request.precision, 1e-6, 1);
+    // What is below all faces keeps the background out: lines need only be as wide as a smoothed
+    // edge, and are less likely to come out beyond something narrow.
+    file_settings.seam_width = 1;
     file_settings.page_width_millimeters = number_of("--page", request.page, 0, 1e5);
     check_style(request, settings.style, format);
     for (const std::string& line : request.lines)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,14 +15,22 @@ const std::string view = "PROJECTION 0 2 8  -2 0 0  2 0 0  -2 4 0\n"
                          "CM grey\n"
                          "MA grey DRF 0.7 0.7 0.7\n";
 
+bool holds(const std::string& text, std::string_view part) {
+    return text.find(part) != std::string::npos;
+}
+
 /// The values of an attribute of the outlines, in their order, those of seams left out.
 std::vector<std::string> of_outlines(const std::string& svg, const std::string& attribute) {
     std::vector<std::string> values;
+    std::istringstream lines(svg);
     const std::string begin = " " + attribute + "=\"";
-    for (std::size_t path = svg.find("<path id="); path != std::string::npos;
-         path = svg.find("<path id=", path + 1)) {
-        const std::size_t value = svg.find(begin, path) + begin.size();
-        values.push_back(svg.substr(value, svg.find('"', value) - value));
+    for (std::string line; std::getline(lines, line);) {
+        const std::size_t place = line.find(begin);
+        if (!line.starts_with("<path") || holds(line, "class=\"seam\"")
+            || place == std::string::npos)
+            continue;
+        const std::size_t value = place + begin.size();
+        values.push_back(line.substr(value, line.find('"', value) - value));
     }
     return values;
 }
@@ -31,10 +40,6 @@ std::size_t count_of(const std::string& text, std::string_view part) {
     for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
         ++count;
     return count;
-}
-
-bool holds(const std::string& text, std::string_view part) {
-    return text.find(part) != std::string::npos;
 }
 
 TEST(DrawCommand, WritesEveryFormatByExtensionAndByName) {
@@ -85,13 +90,33 @@ TEST(DrawCommand, GivesEachPrimitiveItsNumberForColourInTheOrderOfTheText) {
     ASSERT_EQ(run.exit_code, 0) << run.err;
     const std::string svg = folder.read("a.svg");
     const std::vector<std::string> colors = {"#000001", "#000002", "#000003", "#000004", "#000005"};
-    const std::vector<std::string> ids = {"face-1", "face-2", "face-3", "face-4", "face-5"};
     EXPECT_EQ(of_outlines(svg, "fill"), colors) << svg;
-    EXPECT_EQ(of_outlines(svg, "id"), ids) << svg;
     EXPECT_TRUE(holds(svg, "<rect id=\"background\" width=\"512\" height=\"512\" fill=\"#000\"/>"));
+    // Nothing else, so that the file stays small.
     EXPECT_FALSE(holds(svg, "seam")) << svg;
-    EXPECT_TRUE(holds(svg, "<title>sphere, line 6</title>")) << svg;
-    EXPECT_TRUE(holds(svg, "<title>sphere of pair, line 10</title>")) << svg;
+    EXPECT_FALSE(holds(svg, "underlay")) << svg;
+    EXPECT_FALSE(holds(svg, "<path id")) << svg;
+    EXPECT_FALSE(holds(svg, "line 6")) << svg;
+}
+
+TEST(DrawCommand, NamesFacesByTheirStatementsAndLaysWhatHangsTogetherBelowThem) {
+    const ScratchFolder folder;
+    // Two walls that meet, one of them of a subscene, and one by itself.
+    folder.write(
+        "a.vera",
+        view
+            + "P4 -1 1 0  0 1 1  0 3 1  -1 3 0\n"
+              "P3 1.2 1 0  1.9 1 0  1.2 2 0\n"
+              "SSC wall\n"
+              "SCENE wall\n"
+              "P4 0 1 1  1 1 0  1 3 0  0 3 1\n");
+    const ProgramRun run = run_vera(folder, "draw a.vera -o a.svg");
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const std::string svg = folder.read("a.svg");
+    const std::vector<std::string> ids = {"underlay", "face-1", "face-2", "face-3"};
+    EXPECT_EQ(of_outlines(svg, "id"), ids) << svg;
+    EXPECT_TRUE(holds(svg, "<title>polygon, line 5</title>")) << svg;
+    EXPECT_TRUE(holds(svg, "<title>polygon of wall, line 9</title>")) << svg;
 }
 
 TEST(DrawCommand, DrawsSilhouettesAndCreasesAsLayersOfLines) {
@@ -392,7 +417,7 @@ TEST(DrawCommand, SaysWhatIsTooNearToBeDrawn) {
         "what is nearer to the view point than 0.00764 of the image plane's "
         "distance is not drawn: the rest would be too coarse"))
         << run.err;
-    EXPECT_EQ(of_outlines(folder.read("b.svg"), "id"), std::vector<std::string>{"face-1"});
+    EXPECT_EQ(of_outlines(folder.read("b.svg"), "fill"), std::vector<std::string>{"#000001"});
 }
 
 TEST(DrawCommand, ComparesTheDrawingWithRaysOnDemand) {

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "visible/screen_scenes.h"
 
+#include "vera/math/vec3.h"
+
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 namespace vera::testing {
 
@@ -99,6 +103,65 @@ ScreenScene terrain(std::uint64_t seed, std::int32_t columns) {
                 {vertex(column + 1, row), vertex(column + 1, row + 1), vertex(column, row + 1)},
                 source++);
         }
+    return scene;
+}
+
+ScreenScene tangle(std::uint64_t seed, std::size_t count) {
+    std::mt19937_64 random(seed);
+    ScreenScene scene;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        for (int corner = 0; corner < 3; ++corner)
+            scene.vertices.push_back(
+                {{static_cast<std::int32_t>(random() % (screen_size + 1)),
+                  static_cast<std::int32_t>(random() % (screen_size + 1))},
+                 static_cast<std::int64_t>(random() % (depth_size + 1))});
+        add_triangle(scene, {3 * i, 3 * i + 1, 3 * i + 2}, i);
+    }
+    return scene;
+}
+
+ScreenScene balls(std::uint64_t seed, std::size_t count, std::int32_t segments) {
+    std::mt19937_64 random(seed);
+    const auto below = [&](std::int64_t end) {
+        return static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(end));
+    };
+    ScreenScene scene;
+    const std::int64_t thickness = depth_size / static_cast<std::int64_t>(count);
+    std::uint32_t source = 0;
+    for (std::size_t ball = 0; ball < count; ++ball) {
+        const auto radius = static_cast<double>(screen_size / 8 + below(screen_size / 8));
+        const auto x = static_cast<double>(screen_size / 4 + below(screen_size / 2));
+        const auto y = static_cast<double>(screen_size / 4 + below(screen_size / 2));
+        const double nearness = (static_cast<double>(ball) + 0.5) * static_cast<double>(thickness);
+        const auto first = static_cast<std::uint32_t>(scene.vertices.size());
+        // Rings from pole to pole, the axis slanting; segments + 1 of segments corners each.
+        for (std::int32_t ring = 0; ring <= segments; ++ring)
+            for (std::int32_t i = 0; i < segments; ++i) {
+                const double polar = std::numbers::pi * ring / segments;
+                const double around = 2 * std::numbers::pi * i / segments;
+                const Vec3 at = {
+                    std::sin(polar) * std::cos(around),
+                    0.8 * std::cos(polar) + 0.6 * std::sin(polar) * std::sin(around),
+                    0.6 * std::cos(polar) - 0.8 * std::sin(polar) * std::sin(around)};
+                add_vertex(
+                    scene,
+                    {static_cast<std::int32_t>(std::lround(x + radius * at.x)),
+                     static_cast<std::int32_t>(std::lround(y + radius * at.y))},
+                    std::llround(nearness + 0.4 * static_cast<double>(thickness) * at.z));
+            }
+        const auto corner = [&](std::int32_t ring, std::int32_t i) {
+            return first + static_cast<std::uint32_t>(ring * segments + i % segments);
+        };
+        for (std::int32_t ring = 0; ring < segments; ++ring)
+            for (std::int32_t i = 0; i < segments; ++i) {
+                add_triangle(
+                    scene, {corner(ring, i), corner(ring, i + 1), corner(ring + 1, i)}, source++);
+                add_triangle(
+                    scene,
+                    {corner(ring, i + 1), corner(ring + 1, i + 1), corner(ring + 1, i)},
+                    source++);
+            }
+    }
     return scene;
 }
 

@@ -19,4 +19,11 @@ ScreenScene scattered(std::uint64_t seed, std::size_t count, std::int32_t size);
 /// A surface of columns x columns quadrangles over the picture that rises and falls.
 ScreenScene terrain(std::uint64_t seed, std::int32_t columns);
 
+/// Triangles anywhere at any depth, which pass through each other.
+ScreenScene tangle(std::uint64_t seed, std::size_t count);
+
+/// Balls one behind the other, none touching the next, each a closed mesh of 2 segments^2 or so
+/// triangles.
+ScreenScene balls(std::uint64_t seed, std::size_t count, std::int32_t segments);
+
 } // namespace vera::testing

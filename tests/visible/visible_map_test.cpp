@@ -24,6 +24,7 @@ namespace {
 
 using testing::layers;
 using testing::scattered;
+using testing::tangle;
 using testing::terrain;
 using testing::turns_about;
 
@@ -257,47 +258,39 @@ seen_around(const ScreenScene& scene, std::int64_t x_in_halves, std::int64_t y_i
     return middle;
 }
 
-/// Triangles anywhere at any depth, which pass through each other.
-ScreenScene tangle(std::uint64_t seed, std::size_t count) {
+/// The map after cutting shows at points away from borders what asking every triangle tells.
+void expect_like_brute_force_after_cutting(
+    const ScreenScene& scene, std::uint64_t seed, int points, const std::string& what) {
+    ScreenScene cut = scene;
+    const WholePieces whole = whole_pieces(cut);
+    EXPECT_EQ(whole.left, 0U) << what;
+    const VisibleMap map = visible_map(cut, whole.pieces);
     std::mt19937_64 random(seed);
-    ScreenScene scene;
-    for (std::uint32_t i = 0; i < count; ++i) {
-        for (int corner = 0; corner < 3; ++corner)
-            scene.vertices.push_back(
-                {{static_cast<std::int32_t>(random() % (screen_size + 1)),
-                  static_cast<std::int32_t>(random() % (screen_size + 1))},
-                 static_cast<std::int64_t>(random() % (depth_size + 1))});
-        add_triangle(scene, {3 * i, 3 * i + 1, 3 * i + 2}, i);
+    for (int i = 0; i < points && !::testing::Test::HasFailure(); ++i) {
+        const auto x = static_cast<std::int64_t>(random() % (2 * std::uint64_t{screen_size})) | 1;
+        const auto y = static_cast<std::int64_t>(random() % (2 * std::uint64_t{screen_size})) | 1;
+        const auto expected = seen_around(scene, x, y);
+        if (!expected)
+            continue;
+        const auto turns =
+            turns_about(map, 0.5 * static_cast<double>(x), 0.5 * static_cast<double>(y));
+        EXPECT_EQ(turns.size(), expected->source == no_source ? 0U : 1U) << what;
+        if (!turns.empty()) {
+            EXPECT_EQ(map.regions[turns.begin()->first].source, expected->source) << what;
+            EXPECT_EQ(turns.begin()->second, 1) << what;
+        }
     }
-    return scene;
 }
 
 TEST(VisibleMap, ShowsLikeBruteForceWhatPenetratesButForAFewSteps) {
-    for (std::uint64_t seed = 0; seed < 80 && !HasFailure(); ++seed) {
-        const ScreenScene scene = tangle(seed, 2 + seed % 30);
-        ScreenScene cut = scene;
-        const WholePieces whole = whole_pieces(cut);
-        EXPECT_EQ(whole.left, 0U) << "seed " << seed;
-        const VisibleMap map = visible_map(cut, whole.pieces);
-        std::mt19937_64 random(seed);
-        for (int i = 0; i < 100; ++i) {
-            const auto x =
-                static_cast<std::int64_t>(random() % (2 * std::uint64_t{screen_size})) | 1;
-            const auto y =
-                static_cast<std::int64_t>(random() % (2 * std::uint64_t{screen_size})) | 1;
-            const auto expected = seen_around(scene, x, y);
-            if (!expected)
-                continue;
-            const auto turns =
-                turns_about(map, 0.5 * static_cast<double>(x), 0.5 * static_cast<double>(y));
-            EXPECT_EQ(turns.size(), expected->source == no_source ? 0U : 1U) << "seed " << seed;
-            if (!turns.empty()) {
-                EXPECT_EQ(map.regions[turns.begin()->first].source, expected->source)
-                    << "seed " << seed;
-                EXPECT_EQ(turns.begin()->second, 1) << "seed " << seed;
-            }
-        }
-    }
+    for (std::uint64_t seed = 0; seed < 80 && !HasFailure(); ++seed)
+        expect_like_brute_force_after_cutting(
+            tangle(seed, 2 + seed % 30), seed, 100, "seed " + std::to_string(seed));
+}
+
+TEST(VisibleMap, JoinsWhatIsNearestWhereSurfacesPartAlongNearlyTheSameLine) {
+    // Of two loose ends of a source, the first is far from any beginning, the second near one.
+    expect_like_brute_force_after_cutting(tangle(2434, 16), 1, 3000, "tangle");
 }
 
 TEST(VisibleMap, TellsWhatPenetrates) {

@@ -6,6 +6,7 @@
 #include "vera/scene/item_names.h"
 #include "vera/shade/firmament.h"
 #include "vera/shade/lighting.h"
+#include "vera/visible/covered_areas.h"
 #include "vera/visible/drawn_faces.h"
 #include "vera/visible/outline_strokes.h"
 #include "vera/visible/penetrations.h"
@@ -16,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <optional>
 #include <span>
@@ -130,25 +132,54 @@ std::size_t vertex_count(std::span<const VisibleMap::Ring> rings) {
     return count;
 }
 
+void add_ring(
+    const Painted& painted, std::span<const std::uint32_t> vertices, FilledOutline& outline) {
+    std::vector<DrawingPoint>& points = outline.rings.emplace_back();
+    points.reserve(vertices.size());
+    for (const std::uint32_t vertex : vertices)
+        points.push_back(drawn_point(painted, vertex));
+}
+
 void add_rings(
     const Painted& painted, std::span<const VisibleMap::Ring> rings, FilledOutline& outline) {
-    for (const VisibleMap::Ring& ring : rings) {
-        std::vector<DrawingPoint>& points = outline.rings.emplace_back();
-        points.reserve(ring.count);
-        for (const std::uint32_t vertex : painted.map.vertices_of(ring))
-            points.push_back(drawn_point(painted, vertex));
+    for (const VisibleMap::Ring& ring : rings)
+        add_ring(painted, painted.map.vertices_of(ring), outline);
+}
+
+/// Of each face, whether others go on below the whole of it: where it is small, or so narrow that a
+/// strip below its border would come out beyond it.
+std::vector<bool> covering_whole(const Painted& painted, const RegionRings& all) {
+    constexpr std::size_t small = 16;
+    constexpr double narrow = 4; // pixels, twice the strip's width
+    std::vector<bool> result(all.count());
+    for (std::size_t number = 0; number < all.count(); ++number) {
+        FilledOutline outline;
+        add_rings(painted, all[number], outline);
+        double doubled_area = 0;
+        double length = 0;
+        for (const std::vector<DrawingPoint>& ring : outline.rings)
+            for (std::size_t i = 0; i < ring.size(); ++i) {
+                const DrawingPoint& a = ring[i];
+                const DrawingPoint& b = ring[i + 1 == ring.size() ? 0 : i + 1];
+                const double x = b.x - a.x;
+                const double y = b.y - a.y;
+                doubled_area += (a.x - ring[0].x) * y - (a.y - ring[0].y) * x;
+                length += std::sqrt(x * x + y * y);
+            }
+        result[number] = vertex_count(all[number]) <= small || doubled_area < narrow / 2 * length;
     }
+    return result;
 }
 
 /// Where two regions meet, what smooths edges lets through what lies behind both. So one goes on
-/// below those beside it that are painted later: all of them where they are small, which moves no
-/// silhouette; else a strip.
+/// below those beside it that are painted later: all of them where they are small or narrow, which
+/// moves no silhouette; else a strip.
 void cover_seams(
     const Painted& painted,
     const RegionRings& all,
+    const std::vector<bool>& is_covering_whole,
     std::span<const VisibleMap::Ring> own,
     FilledOutline& outline) {
-    constexpr std::size_t small = 16;
     std::vector<std::uint32_t> below;
     const std::size_t own_rings = outline.rings.size();
     for (std::size_t i = 0; i < own_rings; ++i) {
@@ -157,15 +188,59 @@ void cover_seams(
             const std::uint32_t across = painted.map.ring_across[own[i].first + j];
             if (across == no_region || across <= own[i].region)
                 continue;
-            const auto others = all[across];
-            if (vertex_count(others) > small) {
+            if (!is_covering_whole[across]) {
                 outline.seams.push_back({points[j], points[j + 1 == points.size() ? 0 : j + 1]});
             } else if (std::find(below.begin(), below.end(), across) == below.end()) {
                 below.push_back(across);
-                add_rings(painted, others, outline);
+                add_rings(painted, all[across], outline);
             }
         }
     }
+}
+
+/// Where three or more faces meet within a pixel, some of the background would still come through.
+/// So what hangs together is painted as a whole before its faces, in the mean of their colours.
+void add_underlays(const Painted& painted, const RegionRings& all, Drawing& drawing) {
+    struct Sum {
+        double r = 0;
+        double g = 0;
+        double b = 0;
+        double area = 0;
+        std::size_t faces = 0;
+    };
+
+    const CoveredAreas areas = covered_areas(painted.map);
+    std::vector<Sum> sums(areas.outlines.size());
+    for (std::size_t number = 0; number < all.count(); ++number) {
+        Sum& sum = sums[areas.of_source[all[number].front().source]];
+        double area = 0;
+        for (const VisibleMap::Ring& ring : all[number])
+            area += doubled_area(painted.map, ring);
+        const DrawingColor color = drawing.fills[number].color;
+        sum.r += area * color.r;
+        sum.g += area * color.g;
+        sum.b += area * color.b;
+        sum.area += area;
+        ++sum.faces;
+    }
+    std::vector<FilledOutline> underlays;
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+        if (sums[i].faces < 2 || sums[i].area <= 0)
+            continue;
+        const auto mean = [&](double value) {
+            return static_cast<std::uint8_t>(
+                std::clamp(std::floor(value / sums[i].area + 0.5), 0.0, 255.0));
+        };
+        FilledOutline& underlay = underlays.emplace_back();
+        underlay.id = "underlay";
+        underlay.color = {mean(sums[i].r), mean(sums[i].g), mean(sums[i].b)};
+        for (const std::vector<std::uint32_t>& ring : areas.outlines[i])
+            add_ring(painted, ring, underlay);
+    }
+    drawing.fills.insert(
+        drawing.fills.begin(),
+        std::make_move_iterator(underlays.begin()),
+        std::make_move_iterator(underlays.end()));
 }
 
 DrawingColor
@@ -186,6 +261,10 @@ color_of(const Painted& painted, std::uint32_t face, std::span<const VisibleMap:
 
 void add_fills(const Painted& painted, Drawing& drawing) {
     const RegionRings all(painted.map);
+    // Numbers are to be compared, not looked at: the colour says all, and the file stays small.
+    const bool is_looked_at = painted.settings.style != DrawingStyle::ids;
+    const std::vector<bool> is_covering_whole =
+        is_looked_at ? covering_whole(painted, all) : std::vector<bool>();
     std::uint64_t grouped = 0;
     std::string group;
     for (std::size_t number = 0; number < all.count(); ++number) {
@@ -193,19 +272,22 @@ void add_fills(const Painted& painted, Drawing& drawing) {
         const std::uint32_t face = own.front().source;
         const std::uint32_t facet = painted.faces.first_facet[face];
         const std::uint64_t primitive = painted.facets.triangles[facet].primitive;
-        if (group.empty() || primitive != grouped)
-            group = group_name(painted.scene, primitive);
-        grouped = primitive;
         FilledOutline outline;
-        outline.id = "face-" + std::to_string(primitive + 1);
-        outline.group = group;
         outline.color = color_of(painted, face, own);
+        if (is_looked_at) {
+            if (group.empty() || primitive != grouped)
+                group = group_name(painted.scene, primitive);
+            grouped = primitive;
+            outline.id = "face-" + std::to_string(primitive + 1);
+            outline.group = group;
+        }
         add_rings(painted, own, outline);
-        // Numbers are to be compared, not looked at.
-        if (painted.settings.style != DrawingStyle::ids)
-            cover_seams(painted, all, own, outline);
+        if (is_looked_at)
+            cover_seams(painted, all, is_covering_whole, own, outline);
         drawing.fills.push_back(std::move(outline));
     }
+    if (is_looked_at)
+        add_underlays(painted, all, drawing);
 }
 
 std::optional<DrawingColor> background(const Painted& painted) {

@@ -69,7 +69,8 @@ struct Loose {
     std::vector<std::uint32_t> begins;
 };
 
-/// Joins each end to the nearest beginning of its region that is left.
+/// Joins each end to the nearest beginning of its region that is left. Those whose nearest is the
+/// nearest come first: none takes the one that belongs to another.
 void join(Loose loose, const Ways& ways, std::vector<std::uint32_t>& following, VisibleMap& map) {
     const auto by_region = [&](std::uint32_t a, std::uint32_t b) {
         return ways.region[a] != ways.region[b] ? ways.region[a] < ways.region[b] : a < b;
@@ -84,19 +85,28 @@ void join(Loose loose, const Ways& ways, std::vector<std::uint32_t>& following, 
         std::vector<std::uint32_t> begins(
             loose.begins.begin() + static_cast<std::ptrdiff_t>(first),
             loose.begins.begin() + static_cast<std::ptrdiff_t>(last));
-        for (std::size_t i = first; i < last; ++i) {
-            const RationalPoint& from = map.vertices[ways.to(loose.ends[i])];
-            const auto distance = [&](std::uint32_t way) {
-                const RationalPoint& to = map.vertices[ways.from[way]];
-                return std::hypot(to.x() - from.x(), to.y() - from.y());
-            };
-            const auto nearest = std::min_element(
+        const auto distance = [&](std::uint32_t end, std::uint32_t begin) {
+            const RationalPoint& from = map.vertices[ways.to(end)];
+            const RationalPoint& to = map.vertices[ways.from[begin]];
+            const double x = to.x() - from.x();
+            const double y = to.y() - from.y();
+            return std::sqrt(x * x + y * y);
+        };
+        const auto nearest = [&](std::uint32_t end) {
+            return std::min_element(
                 begins.begin(), begins.end(), [&](std::uint32_t a, std::uint32_t b) {
-                    return distance(a) < distance(b);
+                    return distance(end, a) < distance(end, b);
                 });
+        };
+        std::vector<std::pair<double, std::uint32_t>> ends;
+        for (std::size_t i = first; i < last; ++i)
+            ends.emplace_back(distance(loose.ends[i], *nearest(loose.ends[i])), loose.ends[i]);
+        std::sort(ends.begin(), ends.end());
+        for (const auto& [_, end] : ends) {
+            const auto begin = nearest(end);
             ++map.joined;
-            following[loose.ends[i]] = *nearest;
-            begins.erase(nearest);
+            following[end] = *begin;
+            begins.erase(begin);
         }
     }
 }

@@ -47,6 +47,12 @@ struct VisibleMap {
     /// which neither is seen for sure.
     std::size_t joined = 0;
 
+    /// The source, or no_source, that ring_across[place] is a region of.
+    std::uint32_t source_across(std::size_t place) const {
+        const std::uint32_t region = ring_across[place];
+        return region == no_region ? no_source : regions[region].source;
+    }
+
     std::span<const std::uint32_t> vertices_of(const Ring& ring) const {
         return std::span(ring_vertices).subspan(ring.first, ring.count);
     }

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vera/visible/covered_areas.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+
+namespace vera {
+
+namespace {
+
+/// A part of a border beyond which nothing is seen.
+struct Side {
+    std::uint32_t area = 0;
+    std::uint32_t from = 0;
+    std::uint32_t to = 0;
+    bool used = false;
+};
+
+bool comes_before(const Side& a, const Side& b) {
+    return a.area != b.area ? a.area < b.area : a.from < b.from;
+}
+
+/// Calls visit(source, one of its vertices, the next, what is seen across).
+template <typename Visit>
+void for_each_side(const VisibleMap& map, const Visit& visit) {
+    for (const VisibleMap::Ring& ring : map.rings) {
+        const auto vertices = map.vertices_of(ring);
+        for (std::size_t i = 0; i < vertices.size(); ++i)
+            visit(
+                ring.source,
+                vertices[i],
+                vertices[i + 1 == vertices.size() ? 0 : i + 1],
+                map.source_across(ring.first + i));
+    }
+}
+
+/// Sources that have a border in common, one of which stands for all.
+class JoinedSources {
+public:
+    explicit JoinedSources(std::size_t count)
+        : parents_(count) {
+        std::iota(parents_.begin(), parents_.end(), 0U);
+    }
+
+    std::uint32_t representative(std::uint32_t source) {
+        while (parents_[source] != source)
+            source = parents_[source] = parents_[parents_[source]];
+        return source;
+    }
+
+    void join(std::uint32_t a, std::uint32_t b) {
+        const std::uint32_t first = representative(a);
+        const std::uint32_t second = representative(b);
+        parents_[std::max(first, second)] = std::min(first, second);
+    }
+
+private:
+    std::vector<std::uint32_t> parents_;
+};
+
+/// The way that begins with the side and goes on, in its area, until nothing is left to go on with:
+/// at the side's beginning, since as many sides end at a vertex as begin there.
+std::vector<std::uint32_t> way_from(std::vector<Side>& sides, Side& first) {
+    std::vector<std::uint32_t> way;
+    for (Side* side = &first; side != nullptr;) {
+        side->used = true;
+        way.push_back(side->from);
+        const Side wanted = {side->area, side->to, 0};
+        auto next = std::lower_bound(sides.begin(), sides.end(), wanted, comes_before);
+        while (next != sides.end() && !comes_before(wanted, *next) && next->used)
+            ++next;
+        side = next == sides.end() || comes_before(wanted, *next) ? nullptr : &*next;
+    }
+    return way;
+}
+
+} // namespace
+
+CoveredAreas covered_areas(const VisibleMap& map) {
+    CoveredAreas areas;
+    if (map.rings.empty())
+        return areas;
+    const std::size_t source_count = std::size_t{map.rings.back().source} + 1;
+    JoinedSources joined(source_count);
+    for_each_side(
+        map, [&](std::uint32_t source, std::uint32_t, std::uint32_t, std::uint32_t across) {
+            if (across != no_source)
+                joined.join(source, across);
+        });
+    constexpr std::uint32_t none = ~std::uint32_t{0};
+    areas.of_source.assign(source_count, none);
+    for (const VisibleMap::Ring& ring : map.rings) {
+        // The smallest of an area stands for it, and so comes first.
+        std::uint32_t& area = areas.of_source[joined.representative(ring.source)];
+        if (area == none) {
+            area = static_cast<std::uint32_t>(areas.outlines.size());
+            areas.outlines.emplace_back();
+        }
+        areas.of_source[ring.source] = area;
+    }
+
+    std::vector<Side> sides;
+    for_each_side(
+        map, [&](std::uint32_t source, std::uint32_t from, std::uint32_t to, std::uint32_t across) {
+            if (across == no_source)
+                sides.push_back({areas.of_source[source], from, to});
+        });
+    std::stable_sort(sides.begin(), sides.end(), comes_before);
+    for (Side& side : sides)
+        if (!side.used)
+            areas.outlines[side.area].push_back(way_from(sides, side));
+    return areas;
+}
+
+} // namespace vera

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "vera/visible/visible_map.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace vera {
+
+/// What of a picture is covered, in areas that hang together.
+struct CoveredAreas {
+    /// Closed ways along which the area is on the left and the background on the right, through
+    /// vertices of the map.
+    using Outline = std::vector<std::vector<std::uint32_t>>;
+
+    std::vector<Outline> outlines;
+    std::vector<std::uint32_t> of_source; ///< the area of each source that is seen
+};
+
+CoveredAreas covered_areas(const VisibleMap& map);
+
+} // namespace vera
