@@ -3,7 +3,7 @@
 
 #include "vera/visible/cells.h"
 #include "vera/visible/edges.h"
-#include "vera/visible/front_order.h"
+#include "vera/visible/seen_beside.h"
 
 #include <algorithm>
 #include <array>
@@ -25,13 +25,7 @@ struct Raster {
     ScreenEdges edges;
     Cells cells;
     std::vector<std::uint8_t> is_hidden; ///< edges that lie behind what covers all their cells
-
-    FrontFace face(std::uint32_t triangle) const {
-        return {corners_of(scene, scene.triangles[triangle]), slopes[triangle]};
-    }
 };
-
-enum Sides : std::uint8_t { left_side = 1, right_side = 2 };
 
 constexpr std::uint32_t no_edge = ~std::uint32_t{0};
 
@@ -81,6 +75,7 @@ class EdgeSweep {
 public:
     explicit EdgeSweep(const Raster& raster)
         : raster_(raster)
+        , seen_(raster.scene, raster.slopes)
         , stamps_(raster.scene.triangles.size()) {}
 
     void follow(std::uint32_t edge, VisiblePieces& result);
@@ -97,8 +92,7 @@ private:
     void add_touch(ScreenPoint corner);
     void sort_events();
     void change_active(const Event& event);
-    const Cover* nearest(std::uint8_t side, const Event& first, const Event& last);
-    int nearer(std::uint32_t a, std::uint32_t b, double first, double last);
+    std::array<const Cover*, 2> seen_between(const Event& first, const Event& last);
 
     NearnessPlace place_at(double place) const {
         return {begin_.x + place * (end_.x - begin_.x), begin_.y + place * (end_.y - begin_.y)};
@@ -109,6 +103,7 @@ private:
     }
 
     const Raster& raster_;
+    SeenBeside seen_;
     std::vector<std::uint32_t> stamps_; ///< of triangles: the last edge that they were gathered for
     std::uint32_t stamp_ = 0;
     std::vector<std::uint32_t> candidates_;
@@ -243,35 +238,16 @@ void EdgeSweep::change_active(const Event& event) {
         active_.erase(std::find(active_.begin(), active_.end(), event.cover));
 }
 
-/// 1 where a is in front of b between the places, -1 where b is.
-int EdgeSweep::nearer(std::uint32_t a, std::uint32_t b, double first, double last) {
-    const FrontFace face_a = raster_.face(a);
-    const FrontFace face_b = raster_.face(b);
-    FrontOrder found = order_along(face_a, face_b, {place_at(first), place_at(last)});
-    if (found == FrontOrder::unknown)
-        found = order_in_overlap(face_a, face_b);
-    if (found == FrontOrder::penetrating) {
-        result_->penetrating.emplace_back(std::min(a, b), std::max(a, b));
-        return 1;
-    }
-    if (found != FrontOrder::coincident)
-        return found == FrontOrder::first ? 1 : -1;
-    // The first of the text is in front.
-    const std::uint32_t source_a = source_of(a);
-    const std::uint32_t source_b = source_of(b);
-    return source_a != source_b ? (source_a < source_b ? 1 : -1) : (a < b ? 1 : -1);
-}
-
-const Cover* EdgeSweep::nearest(std::uint8_t side, const Event& first, const Event& last) {
-    const Cover* best = nullptr;
-    for (const std::uint32_t i : active_) {
-        const Cover& cover = covers_[i];
-        if ((cover.sides & side) == 0)
-            continue;
-        if (best == nullptr || nearer(cover.triangle, best->triangle, first.value, last.value) > 0)
-            best = &cover;
-    }
-    return best;
+/// What is seen on the left and on the right between the events, or nothing where that is the same.
+std::array<const Cover*, 2> EdgeSweep::seen_between(const Event& first, const Event& last) {
+    seen_.start(place_at(first.value), place_at(last.value));
+    for (const std::uint32_t i : active_)
+        seen_.add(covers_[i].triangle, covers_[i].sides);
+    const auto [left, right] = seen_.find(result_->penetrating);
+    const auto cover = [&](std::uint32_t number) {
+        return number == SeenBeside::nothing ? nullptr : &covers_[active_[number]];
+    };
+    return {cover(left), cover(right)};
 }
 
 /// Of several edges in one place that what is seen beside it has, one speaks for all.
@@ -288,6 +264,7 @@ void EdgeSweep::follow(std::uint32_t edge, VisiblePieces& result) {
         return;
     gather(edge);
     result_ = &result;
+    seen_.follow(begin_, end_);
     covers_.clear();
     touches_.clear();
     for (const std::uint32_t triangle : candidates_)
@@ -323,8 +300,7 @@ void EdgeSweep::follow(std::uint32_t edge, VisiblePieces& result) {
         }
         Piece piece = {here.place};
         if (next < events_.size()) {
-            const Cover* left = nearest(left_side, here, events_[next]);
-            const Cover* right = nearest(right_side, here, events_[next]);
+            const auto [left, right] = seen_between(here, events_[next]);
             if (speaks_here(edge, left, right)) {
                 piece.left = left != nullptr ? left->triangle : no_triangle;
                 piece.right = right != nullptr ? right->triangle : no_triangle;

@@ -47,9 +47,9 @@ Cells cells_of(
     const CancelFlag* cancel = nullptr);
 
 /// By how much something must be behind what blocks a cell to be hidden there whatever the order of
-/// the two: see front_order.h.
+/// the two: a bit more than by that in which it would be compared.
 inline double hidden_margin(const NearnessSlope& slope) {
-    return 2 * slope.per_step() + 2;
+    return sure_margin(slope) + 0x1p-26 * slope.per_step();
 }
 
 /// Calls visit(number of the cell) for the cells that the segment from a to b touches, until that

@@ -250,7 +250,7 @@ DrawnScene draw_scene(
         scene, all, settings.style == DrawingStyle::ids ? FaceUnit::primitive : FaceUnit::plane);
     ScreenScene screen = screen_scene(all, camera_map, faces.of_facet);
     sort_by_place(screen);
-    const WholePieces whole = whole_pieces(screen, progress, cancel);
+    const WholePieces whole = whole_pieces(screen, progress, cancel, settings.engine);
     const VisibleMap map = visible_map(screen, whole.pieces);
 
     const Painted painted = {scene, camera, picture, settings, all, faces, map};

@@ -6,6 +6,7 @@
 #include "vera/scene/camera.h"
 #include "vera/scene/picture_settings.h"
 #include "vera/scene/scene.h"
+#include "vera/visible/visibility_engine.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -22,6 +23,7 @@ struct DrawSettings {
     DrawingStyle style = DrawingStyle::flat;
     double deviation =
         0.1; ///< how far the plane facets of what is curved may lie off it, in pixels
+    VisibilityEngine engine = VisibilityEngine::cells; ///< the drawing is the same
 };
 
 struct DrawnScene {
@@ -36,7 +38,7 @@ struct DrawnScene {
 
 /// A drawing of what the camera sees, every face an outline: as exact as a grid of 2^22 steps
 /// across the picture. Throws InputError where style ids has more than 2^24 - 1 primitives to tell
-/// apart.
+/// apart, and std::runtime_error where memory would not suffice for the engine.
 DrawnScene draw_scene(
     const Scene& scene,
     const Camera& camera,

@@ -3,6 +3,7 @@
 
 #include "vera/visible/edges.h"
 #include "vera/visible/front_order.h"
+#include "vera/visible/plane_sweep.h"
 
 #include <array>
 #include <cmath>
@@ -137,13 +138,18 @@ void cut_penetrations(
         add_parts(scene, triangles[i], cuts.of_triangle(i));
 }
 
-WholePieces whole_pieces(ScreenScene& scene, const Progress& progress, const CancelFlag* cancel) {
+WholePieces whole_pieces(
+    ScreenScene& scene,
+    const Progress& progress,
+    const CancelFlag* cancel,
+    VisibilityEngine engine) {
     constexpr int most_rounds = 24;
     // Where each passes through each, cutting all would take the square of their number.
     const std::size_t most_triangles = 16 * scene.triangles.size() + 100'000;
     WholePieces result;
     while (true) {
-        result.pieces = cell_raster(scene, progress, cancel);
+        result.pieces = engine == VisibilityEngine::sweep ? plane_sweep(scene, {}, progress, cancel)
+                                                          : cell_raster(scene, progress, cancel);
         result.left = result.pieces.penetrating.size();
         if (result.left == 0 || result.rounds == most_rounds
             || scene.triangles.size() > most_triangles)
