@@ -190,46 +190,61 @@ TEST(ConnectionGraph, HasEveryCrossingOfEveryPair) {
     }
 }
 
+/// Segments close to each other, so that doubles do not suffice, or anywhere.
+Segments random_segments(std::mt19937_64& random, std::uint64_t range) {
+    const std::int32_t from = range > 40 ? 0 : screen_size - 100;
+    const auto any = [&] { return from + static_cast<std::int32_t>(random() % range); };
+    Segments segments;
+    while (segments.size() < 12) {
+        const ScreenPoint a = {any(), any()};
+        const ScreenPoint b = {any(), any()};
+        if (a != b)
+            segments.push_back({std::min(a, b), std::max(a, b)});
+    }
+    return segments;
+}
+
+/// Where the segments begin and cross.
+std::vector<SweepPoint> points_of(const Segments& segments, const SweepPredicates& predicates) {
+    std::vector<SweepPoint> points;
+    for (std::uint32_t i = 0; i < segments.size(); ++i) {
+        points.push_back(at_end(segments[i].begin));
+        for (std::uint32_t j = 0; j < segments.size(); ++j)
+            if (const auto crossing = predicates.crossing(i, j))
+                points.push_back(*crossing);
+    }
+    return points;
+}
+
+int exact_side(const SweepSegments::Segment& segment, const RationalPoint& point) {
+    const ScreenStep whole = step(segment.begin, segment.end);
+    const Int128 x =
+        Int128{point.whole.x - segment.begin.x} * point.denominator + point.x_numerator;
+    const Int128 y =
+        Int128{point.whole.y - segment.begin.y} * point.denominator + point.y_numerator;
+    return sign(whole.x * y - whole.y * x);
+}
+
 TEST(SweepPredicates, AgreeWithFractions) {
     std::mt19937_64 random(1);
     std::size_t same = 0;
-    for (int round = 0; round < 300; ++round) {
-        // Close to each other, so that doubles do not suffice, or anywhere.
-        const std::uint64_t range = round % 3 == 0 ? 5 : round % 3 == 1 ? 40 : screen_size + 1;
-        const std::int32_t from = range > 40 ? 0 : screen_size - 100;
-        const auto any = [&] { return from + static_cast<std::int32_t>(random() % range); };
-        Segments segments;
-        while (segments.size() < 12) {
-            const ScreenPoint a = {any(), any()};
-            const ScreenPoint b = {any(), any()};
-            if (a != b)
-                segments.push_back({std::min(a, b), std::max(a, b)});
-        }
-        SweepCounts counts;
-        const SweepPredicates predicates(segments, counts);
-        std::vector<SweepPoint> points;
-        for (std::uint32_t i = 0; i < segments.size(); ++i) {
-            points.push_back(at_end(segments[i].begin));
-            for (std::uint32_t j = 0; j < segments.size(); ++j)
-                if (i != j)
-                    if (const auto crossing = predicates.crossing(i, j))
-                        points.push_back(*crossing);
-        }
-        for (const SweepPoint& a : points) {
-            const RationalPoint exact = predicates.exact(a);
-            EXPECT_NEAR(exact.x(), a.x, 0x1p-28);
-            for (const SweepPoint& b : points) {
-                EXPECT_EQ(predicates.order(a, b), order(exact, predicates.exact(b)));
-                same += predicates.order(a, b) == 0 ? 1 : 0;
-            }
-            for (std::uint32_t i = 0; i < segments.size(); ++i) {
-                const auto& [begin, end] = segments[i];
-                const ScreenStep whole = step(begin, end);
-                const Int128 x =
-                    Int128{exact.whole.x - begin.x} * exact.denominator + exact.x_numerator;
-                const Int128 y =
-                    Int128{exact.whole.y - begin.y} * exact.denominator + exact.y_numerator;
-                EXPECT_EQ(predicates.side(i, a), sign(whole.x * y - whole.y * x));
+    for (const std::uint64_t range : {5, 40, screen_size + 1}) {
+        for (int round = 0; round < 100; ++round) {
+            const Segments segments = random_segments(random, range);
+            SweepCounts counts;
+            const SweepPredicates predicates(segments, counts);
+            const std::vector<SweepPoint> points = points_of(segments, predicates);
+            for (const SweepPoint& a : points) {
+                const RationalPoint exact = predicates.exact(a);
+                EXPECT_NEAR(exact.x(), a.x, 0x1p-28);
+                EXPECT_NEAR(exact.y(), a.y, 0x1p-28);
+                for (const SweepPoint& b : points) {
+                    const int found = predicates.order(a, b);
+                    EXPECT_EQ(found, order(exact, predicates.exact(b)));
+                    same += found == 0 ? 1 : 0;
+                }
+                for (std::uint32_t i = 0; i < segments.size(); ++i)
+                    EXPECT_EQ(predicates.side(i, a), exact_side(segments[i], exact));
             }
         }
     }
@@ -244,7 +259,7 @@ bool covers_below(
         const ScreenStep side = step(a, corners[(i + 1) % 3].point);
         const double turn = static_cast<double>(side.x) * (place.y - a.y)
             - static_cast<double>(side.y) * (place.x - a.x);
-        const double length = static_cast<double>(std::abs(side.x) + std::abs(side.y));
+        const auto length = static_cast<double>(std::abs(side.x) + std::abs(side.y));
         // A side through the place has the edge's direction, and the triangle above or below it.
         if (std::abs(turn) < 1e-3 * length) {
             if (cross(side, along) != 0 || (side.x > 0 || (side.x == 0 && side.y > 0)))

@@ -47,52 +47,67 @@ struct MaximalPiece {
     }
 };
 
-/// The pieces in an order that is no matter of how they were found, joined where nothing else ends.
-std::vector<MaximalPiece> maximal(const ScreenScene& scene, const VisiblePieces& found) {
-    const auto source = [&](std::uint32_t triangle) {
-        return triangle == no_triangle ? no_source : scene.triangles[triangle].source;
-    };
-    std::vector<MaximalPiece> pieces;
-    std::map<RationalPoint, std::vector<std::size_t>, LessPoint> at;
-    for (const VisiblePiece& piece : found.pieces) {
-        MaximalPiece one = {
-            piece.from,
-            piece.to,
-            source(piece.left),
-            source(piece.right),
-            step(piece.edge_begin, piece.edge_end)};
-        if (order(one.to, one.from) < 0) {
-            std::swap(one.from, one.to);
-            std::swap(one.left, one.right);
-            one.way = {-one.way.x, -one.way.y};
-        }
-        at[one.from].push_back(pieces.size());
-        at[one.to].push_back(pieces.size());
-        pieces.push_back(one);
-    }
-    const auto goes_on = [&](const MaximalPiece& a, const MaximalPiece& b) {
-        return a.to == b.from && cross(a.way, b.way) == 0 && a.left == b.left && a.right == b.right;
-    };
-    std::vector<MaximalPiece> result;
-    for (const auto& [point, here] : at)
-        for (const std::size_t i : here) {
-            if (!(pieces[i].from == point))
-                continue;
-            if (here.size() == 2 && goes_on(pieces[here[0] == i ? here[1] : here[0]], pieces[i]))
-                continue;
-            MaximalPiece whole = pieces[i];
-            for (std::size_t last = i;;) {
-                const auto& there = at[whole.to];
-                const std::size_t next = there[there[0] == last ? there.size() - 1 : 0];
-                if (there.size() != 2 || !goes_on(pieces[last], pieces[next]))
-                    break;
-                whole.to = pieces[next].to;
-                last = next;
+/// Joins pieces where nothing else ends.
+class Joining {
+public:
+    Joining(const ScreenScene& scene, const VisiblePieces& found) {
+        const auto source = [&](std::uint32_t triangle) {
+            return triangle == no_triangle ? no_source : scene.triangles[triangle].source;
+        };
+        for (const VisiblePiece& piece : found.pieces) {
+            const bool is_rightward = order(piece.from, piece.to) < 0;
+            const ScreenPoint begin = is_rightward ? piece.edge_begin : piece.edge_end;
+            const ScreenPoint end = is_rightward ? piece.edge_end : piece.edge_begin;
+            MaximalPiece one = {
+                piece.from, piece.to, source(piece.left), source(piece.right), step(begin, end)};
+            if (!is_rightward) {
+                std::swap(one.from, one.to);
+                std::swap(one.left, one.right);
             }
+            at_[one.from].push_back(pieces_.size());
+            at_[one.to].push_back(pieces_.size());
+            pieces_.push_back(one);
+        }
+    }
+
+    /// In an order that is no matter of how they were found.
+    std::vector<MaximalPiece> result() {
+        std::vector<MaximalPiece> result;
+        for (std::size_t first = 0; first < pieces_.size(); ++first) {
+            if (neighbor(first, pieces_[first].from) != none)
+                continue;
+            MaximalPiece whole = pieces_[first];
+            for (std::size_t next = neighbor(first, whole.to); next != none;
+                 next = neighbor(next, whole.to))
+                whole.to = pieces_[next].to;
             result.push_back(whole);
         }
-    std::sort(result.begin(), result.end());
-    return result;
+        std::sort(result.begin(), result.end());
+        return result;
+    }
+
+private:
+    static constexpr std::size_t none = ~std::size_t{0};
+
+    /// The one that goes on straight at that end of the piece, with the same beside it.
+    std::size_t neighbor(std::size_t piece, const RationalPoint& end) {
+        const std::vector<std::size_t>& here = at_[end];
+        if (here.size() != 2)
+            return none;
+        const std::size_t other = here[0] == piece ? here[1] : here[0];
+        const MaximalPiece& a = pieces_[piece];
+        const MaximalPiece& b = pieces_[other];
+        const bool goes_on = (a.to == b.from || a.from == b.to) && cross(a.way, b.way) == 0
+            && a.left == b.left && a.right == b.right;
+        return goes_on ? other : none;
+    }
+
+    std::vector<MaximalPiece> pieces_;
+    std::map<RationalPoint, std::vector<std::size_t>, LessPoint> at_;
+};
+
+std::vector<MaximalPiece> maximal(const ScreenScene& scene, const VisiblePieces& found) {
+    return Joining(scene, found).result();
 }
 
 void expect_same_maps(const VisibleMap& a, const VisibleMap& b, const std::string& what) {

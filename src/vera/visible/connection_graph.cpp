@@ -4,6 +4,7 @@
 #include "vera/base/check.h"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 #include <queue>
 #include <set>
@@ -21,7 +22,7 @@ struct Rung {
 /// The status keeps its order by where rungs are inserted: the segments' order, which is true at
 /// the line of the sweep alone, serves to find a point among them.
 struct RungOrder {
-    using is_transparent = void;
+    using is_transparent = void; // NOLINT(readability-identifier-naming): the library's name
     const SweepPredicates* predicates;
 
     bool operator()(const Rung&, const Rung&) const { return false; }
@@ -185,9 +186,11 @@ void Sweep::end_edges(
 void Sweep::find_outgoing(const SweepPoint& point) {
     outgoing_.clear();
     // What goes through the point lies the other way round behind it.
-    for (auto segment = through_.rbegin(); segment != through_.rend(); ++segment)
-        if (leads_beyond(*segment, point))
-            outgoing_.push_back(*segment);
+    std::copy_if(
+        through_.rbegin(),
+        through_.rend(),
+        std::back_inserter(outgoing_),
+        [&](std::uint32_t segment) { return leads_beyond(segment, point); });
     if (point.is_crossing())
         return;
     const auto middle = static_cast<std::ptrdiff_t>(outgoing_.size());
