@@ -191,9 +191,11 @@ TEST(ConnectionGraph, HasEveryCrossingOfEveryPair) {
 }
 
 /// Segments close to each other, so that doubles do not suffice, or anywhere.
-Segments random_segments(std::mt19937_64& random, std::uint64_t range) {
+Segments random_segments(std::mt19937_64& random, std::int32_t range) {
     const std::int32_t from = range > 40 ? 0 : screen_size - 100;
-    const auto any = [&] { return from + static_cast<std::int32_t>(random() % range); };
+    const auto any = [&] {
+        return from + static_cast<std::int32_t>(random() % static_cast<std::uint64_t>(range));
+    };
     Segments segments;
     while (segments.size() < 12) {
         const ScreenPoint a = {any(), any()};
@@ -228,7 +230,7 @@ int exact_side(const SweepSegments::Segment& segment, const RationalPoint& point
 TEST(SweepPredicates, AgreeWithFractions) {
     std::mt19937_64 random(1);
     std::size_t same = 0;
-    for (const std::uint64_t range : {5, 40, screen_size + 1}) {
+    for (const std::int32_t range : {5, 40, screen_size + 1}) {
         for (int round = 0; round < 100; ++round) {
             const Segments segments = random_segments(random, range);
             SweepCounts counts;

@@ -184,6 +184,21 @@ TEST(PlaneSweep, SeesLikeTheCellsWhatLiesInOnePlane) {
     }
 }
 
+TEST(PlaneSweep, SeesLikeTheCellsWhatIsSoCloseThatTheOrderIsNotTransitive) {
+    // Two planes two depths apart are coincident, so that the first of the text is in front; four
+    // apart they are not: a may be before b, b before c and c before a.
+    for (std::uint64_t seed = 0; seed < 300 && !HasFailure(); ++seed) {
+        ScreenScene scene = testing::layers(seed, 2 + seed % 40, std::int32_t{1} << (1 + seed % 4));
+        for (const ScreenTriangle& triangle : scene.triangles)
+            for (const std::uint32_t i : triangle.vertices) {
+                ScreenVertex& vertex = scene.vertices[i];
+                vertex.nearness = 1000 + triangle.source % 7
+                    + (seed % 2 == 0 ? 0 : vertex.point.x + 3 * std::int64_t{vertex.point.y});
+            }
+        expect_same(scene, "seed " + std::to_string(seed));
+    }
+}
+
 TEST(PlaneSweep, SeesLikeTheCellsNothingAndOneTriangle) {
     expect_same({}, "nothing");
     ScreenScene scene;

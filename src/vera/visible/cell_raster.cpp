@@ -108,7 +108,7 @@ private:
     std::uint32_t stamp_ = 0;
     std::vector<std::uint32_t> candidates_;
     std::vector<Cover> covers_;
-    std::vector<SegmentPlace> touches_; ///< where a triangle has a corner on the edge and no more
+    std::vector<SegmentPlace> touches_; ///< where a triangle has a corner on the edge
     std::vector<Event> events_;
     std::vector<std::uint32_t> active_; ///< covers
     ScreenPoint begin_;
@@ -151,6 +151,8 @@ void EdgeSweep::add_beside(
          raster_.edges.of_triangle[triangle][side],
          first,
          last});
+    add_touch(corners[side]);
+    add_touch(corners[(side + 1) % 3]);
 }
 
 /// Of a triangle that the line of the edge passes through; sides tells on which side of it each
@@ -163,13 +165,15 @@ void EdgeSweep::add_across(
     std::size_t count = 0;
     for (std::size_t i = 0; i < 3 && count < 2; ++i) {
         const std::size_t next = (i + 1) % 3;
-        if (sides[i] == 0)
+        if (sides[i] == 0) {
             places[count++] = place_on(begin_, end_, corners[i]);
-        else if ((sides[i] < 0 && sides[next] > 0) || (sides[i] > 0 && sides[next] < 0))
+            add_touch(corners[i]);
+        } else if ((sides[i] < 0 && sides[next] > 0) || (sides[i] > 0 && sides[next] < 0)) {
             // The same two numbers whichever of the two triangles at that side is asked.
             places[count++] = corners[i] < corners[next]
                 ? crossing_place(begin_, end_, corners[i], corners[next])
                 : crossing_place(begin_, end_, corners[next], corners[i]);
+        }
     }
     if (order(places[1], places[0]) < 0)
         std::swap(places[0], places[1]);
@@ -211,7 +215,7 @@ void EdgeSweep::add_cover(std::uint32_t triangle) {
             add_touch(corners[i]);
 }
 
-/// Of a triangle that touches the line of the edge with a corner.
+/// Of a triangle that has a corner on the line of the edge.
 void EdgeSweep::add_touch(ScreenPoint corner) {
     const SegmentPlace place = place_on(begin_, end_, corner);
     if (place.numerator > 0 && place.numerator < place.denominator)

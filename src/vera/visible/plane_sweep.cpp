@@ -258,7 +258,7 @@ SweepForecast checked_forecast(const SweepSegments& segments, std::optional<std:
         "a sweep would meet about " + std::to_string(static_cast<std::uint64_t>(forecast.crossings))
         + " crossings of edges, which takes about " + mebibytes(forecast.bytes)
         + " MiB of memory, and " + mebibytes(static_cast<double>(*limit))
-        + " MiB are available: take the cells, as with --engine cells, which do not need them");
+        + " MiB are available: take --engine cells, which keeps no crossings");
 }
 
 } // namespace

@@ -26,8 +26,8 @@ struct SweepForecast {
 /// By a sweep over the picture that meets every crossing of edges, of hidden ones as well
 /// (appendix of the VERA paper): O((n + k) log n) steps for n edges and k crossings, apart from
 /// moving entries of sets of the triangles that lie one behind the other. The same pieces as
-/// cell_raster(), but for ends at which nothing that is seen ends: there those of the cells are cut
-/// in two. Throws std::runtime_error where memory would not suffice.
+/// cell_raster(), in the same order, but for corners at which nothing else that is seen ends: there
+/// those of the cells are cut in two. Throws std::runtime_error where memory would not suffice.
 VisiblePieces plane_sweep(
     const ScreenScene& scene,
     const PlaneSweepSettings& settings = {},
