@@ -92,6 +92,7 @@ private:
     void add_touch(ScreenPoint corner);
     void sort_events();
     void change_active(const Event& event);
+    bool is_still_hidden() const;
     std::array<const Cover*, 2> seen_between(const Event& first, const Event& last);
 
     NearnessPlace place_at(double place) const {
@@ -110,7 +111,8 @@ private:
     std::vector<Cover> covers_;
     std::vector<SegmentPlace> touches_; ///< where a triangle has a corner on the edge
     std::vector<Event> events_;
-    std::vector<std::uint32_t> active_; ///< covers
+    std::vector<std::uint32_t> active_;  ///< covers
+    std::uint32_t hidden_by_ = no_cover; ///< on both sides of the part of the edge before
     ScreenPoint begin_;
     ScreenPoint end_;
     VisiblePieces* result_ = nullptr;
@@ -151,8 +153,6 @@ void EdgeSweep::add_beside(
          raster_.edges.of_triangle[triangle][side],
          first,
          last});
-    add_touch(corners[side]);
-    add_touch(corners[(side + 1) % 3]);
 }
 
 /// Of a triangle that the line of the edge passes through; sides tells on which side of it each
@@ -242,16 +242,31 @@ void EdgeSweep::change_active(const Event& event) {
         active_.erase(std::find(active_.begin(), active_.end(), event.cover));
 }
 
+/// Whether what hid the part of the edge before hides this one as well.
+bool EdgeSweep::is_still_hidden() const {
+    bool is_there = false;
+    for (const std::uint32_t i : active_) {
+        is_there = is_there || i == hidden_by_;
+        if (covers_[i].sides != (left_side | right_side)
+            && !seen_.hides(covers_[hidden_by_].triangle, covers_[i].triangle))
+            return false;
+    }
+    return is_there;
+}
+
 /// What is seen on the left and on the right between the events, or nothing where that is the same.
 std::array<const Cover*, 2> EdgeSweep::seen_between(const Event& first, const Event& last) {
     seen_.start(place_at(first.value), place_at(last.value));
+    if (hidden_by_ != no_cover && is_still_hidden())
+        return {};
     for (const std::uint32_t i : active_)
         seen_.add(covers_[i].triangle, covers_[i].sides);
-    const auto [left, right] = seen_.find(result_->penetrating);
+    const SeenBeside::Seen seen = seen_.find(result_->penetrating);
+    hidden_by_ = seen.hidden_by == SeenBeside::nothing ? no_cover : active_[seen.hidden_by];
     const auto cover = [&](std::uint32_t number) {
         return number == SeenBeside::nothing ? nullptr : &covers_[active_[number]];
     };
-    return {cover(left), cover(right)};
+    return {cover(seen.left), cover(seen.right)};
 }
 
 /// Of several edges in one place that what is seen beside it has, one speaks for all.
@@ -275,6 +290,7 @@ void EdgeSweep::follow(std::uint32_t edge, VisiblePieces& result) {
         add_cover(triangle);
     sort_events();
     active_.clear();
+    hidden_by_ = no_cover;
 
     struct Piece {
         SegmentPlace first;
@@ -300,7 +316,9 @@ void EdgeSweep::follow(std::uint32_t edge, VisiblePieces& result) {
         bool is_touched = false;
         for (; next < events_.size() && is_at_the_same_place(here, events_[next]); ++next) {
             change_active(events_[next]);
-            is_touched = is_touched || events_[next].cover == no_cover;
+            // What covers one side has a corner where it begins and where it ends.
+            is_touched = is_touched || events_[next].cover == no_cover
+                || covers_[events_[next].cover].sides != (left_side | right_side);
         }
         Piece piece = {here.place};
         if (next < events_.size()) {

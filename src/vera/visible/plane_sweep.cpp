@@ -135,12 +135,12 @@ void PartFinder::look_at(
         return;
     ++counts_.looked_at;
     gather(borders, below);
-    const auto [left, right] = seen_.find(penetrating);
+    const SeenBeside::Seen seen = seen_.find(penetrating);
     add_part(
         vertex,
         edge.end,
-        left == SeenBeside::nothing ? Beside{} : beside_[left],
-        right == SeenBeside::nothing ? Beside{} : beside_[right]);
+        seen.left == SeenBeside::nothing ? Beside{} : beside_[seen.left],
+        seen.right == SeenBeside::nothing ? Beside{} : beside_[seen.right]);
 }
 
 void PartFinder::add_part(

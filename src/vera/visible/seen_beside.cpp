@@ -120,7 +120,7 @@ SeenBeside::find(std::vector<std::pair<std::uint32_t, std::uint32_t>>& penetrati
                                return candidates_[foremost_].hides(candidates_[i]);
                            });
     if (is_hidden)
-        return {};
+        return {nothing, nothing, foremost_};
     find_front(left_side, fronts_[0]);
     find_front(right_side, fronts_[1]);
     if (!has_one_sided(fronts_[0]) && !has_one_sided(fronts_[1]))

@@ -26,6 +26,8 @@ public:
     struct Seen {
         std::uint32_t left = nothing;
         std::uint32_t right = nothing;
+        /// What covers both sides and surely hides all that covers but one, where that was found.
+        std::uint32_t hidden_by = nothing;
     };
 
     /// slopes[i] is that of triangle i. Both must outlive this.
