@@ -65,6 +65,9 @@ public:
         const ConnectionGraph::Edge& edge,
         std::span<const std::uint32_t> below);
 
+    /// How often look_at() put two triangles in order, but for those that one hides at first sight.
+    std::uint64_t comparisons() const { return seen_.comparisons(); }
+
     std::vector<VisiblePart> parts;
     std::vector<std::pair<std::uint32_t, std::uint32_t>> penetrating;
 
@@ -303,6 +306,7 @@ VisiblePieces plane_sweep(
                         / static_cast<double>(graph.edges.size()));
         });
     counts.visible_edges = finder.parts.size();
+    counts.depth_orders += finder.comparisons();
     if (settings.counts != nullptr)
         *settings.counts = counts;
 
