@@ -38,6 +38,7 @@ struct Request {
     std::string output;
     std::string format;
     std::string style = "flat";
+    std::string engine = "cells";
     double precision = 0.01;
     double deviation = 0.1;
     double page = 0;
@@ -251,6 +252,7 @@ void draw(const Request& request, const Console& console) {
     DrawSettings settings;
     settings.style = style_of(request);
     settings.shadow_lines = request.shadow_lines;
+    settings.engine = request.engine == "sweep" ? VisibilityEngine::sweep : VisibilityEngine::cells;
     settings.deviation = number_of("--deviation", request.deviation, 1e-4, 100);
     DrawingSettings file_settings;
     file_settings.precision = number_of("--precision", request.precision, 1e-6, 1);
@@ -372,6 +374,16 @@ void add_draw_command(CLI::App& app, Console& console) {
     command
         ->add_option("--page", request->page, "width of the page in millimetres; 0: by the raster")
         ->type_name("MM")
+        ->capture_default_str();
+    command
+        ->add_option(
+            "--engine",
+            request->engine,
+            "how what is seen is found; the drawing is the same. cells: fast, on all threads; "
+            "sweep: "
+            "by a plane sweep, which meets every crossing of edges, hidden ones as well")
+        ->type_name("cells|sweep")
+        ->check(CLI::IsMember({"cells", "sweep"}).description(""))
         ->capture_default_str();
     command->add_option("--threads", request->threads, "0: one for each processor")
         ->type_name("N")

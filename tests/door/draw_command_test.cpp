@@ -233,6 +233,26 @@ TEST(DrawCommand, GivesTheSameFileInEveryRunForAnyNumberOfThreads) {
         }
 }
 
+TEST(DrawCommand, GivesTheSameFileByEitherEngine) {
+    const ScratchFolder folder;
+    // Things that touch, cover and pass through each other.
+    folder.write(
+        "a.vera",
+        view
+            + "P4 -9 0 9  9 0 9  9 0 -9  -9 0 -9\n"
+              "SP 0 1 -4 1\n"
+              "SP 0.7 1.2 -4 0.8\n"
+              "P3 -2 0 -5  2 0.5 -3  0 3 -4\n");
+    for (const std::string style : {"flat", "ids"}) {
+        const std::string draw = "draw a.vera --deviation 1 --style " + style;
+        ASSERT_EQ(run_vera(folder, draw + " -o cells.svg").exit_code, 0);
+        const ProgramRun run = run_vera(folder, draw + " --engine sweep -o sweep.svg --json");
+        ASSERT_EQ(run.exit_code, 0) << run.err;
+        EXPECT_FALSE(holds(run.out, "\"cut_rounds\": 0")) << run.out;
+        EXPECT_EQ(folder.read("cells.svg"), folder.read("sweep.svg")) << style;
+    }
+}
+
 TEST(DrawCommand, RefusesWhatItCannotUnderstand) {
     const ScratchFolder folder;
     folder.write("a.vera", small_scene);
@@ -281,6 +301,8 @@ TEST(DrawCommand, RefusesWhatItCannotUnderstand) {
          "'lines'?"},
         {"-o a.svg --style hatched",
          "--style takes flat, ids, lines, hidden-lines or toon; found 'hatched'"},
+        {"-o a.svg --engine swep",
+         "--engine takes cells or sweep; found 'swep'; did you mean 'sweep'?"},
         {"-o a.svg --precision 0", "--precision takes a number from 1e-06 to 1; found 0"},
         {"-o a.svg --precision 2", "--precision takes a number from 1e-06 to 1; found 2"},
         {"-o a.svg --precision nan", "--precision takes a number from 1e-06 to 1; found nan"},
@@ -388,7 +410,7 @@ TEST(DrawCommand, DrawsAnEmptySceneAsItsBackground) {
 
 TEST(DrawCommand, CutsWhatPassesThroughOtherThings) {
     const ScratchFolder folder;
-    folder.write("a.vera", view + "P4 -9 0 9  9 0 9  9 0 -9  -9 0 -9\nSP 0 0.2 0 1\n");
+    folder.write("a.vera", view + "P4 -9 0 9  9 0 9  9 0 -9  -9 0 -9\nSP 0 0.2 -4 1\n");
     const ProgramRun run = run_vera(folder, "draw a.vera --style ids -o a.svg --json");
     ASSERT_EQ(run.exit_code, 0) << run.err;
     EXPECT_EQ(run.err, "");

@@ -106,20 +106,6 @@ ScreenScene terrain(std::uint64_t seed, std::int32_t columns) {
     return scene;
 }
 
-ScreenScene tangle(std::uint64_t seed, std::size_t count) {
-    std::mt19937_64 random(seed);
-    ScreenScene scene;
-    for (std::uint32_t i = 0; i < count; ++i) {
-        for (int corner = 0; corner < 3; ++corner)
-            scene.vertices.push_back(
-                {{static_cast<std::int32_t>(random() % (screen_size + 1)),
-                  static_cast<std::int32_t>(random() % (screen_size + 1))},
-                 static_cast<std::int64_t>(random() % (depth_size + 1))});
-        add_triangle(scene, {3 * i, 3 * i + 1, 3 * i + 2}, i);
-    }
-    return scene;
-}
-
 ScreenScene balls(std::uint64_t seed, std::size_t count, std::int32_t segments) {
     std::mt19937_64 random(seed);
     const auto below = [&](std::int64_t end) {
@@ -161,6 +147,85 @@ ScreenScene balls(std::uint64_t seed, std::size_t count, std::int32_t segments) 
                     {corner(ring, i + 1), corner(ring + 1, i + 1), corner(ring + 1, i)},
                     source++);
             }
+    }
+    return scene;
+}
+
+ScreenScene tangle(std::uint64_t seed, std::size_t count, std::int32_t crossings_per_side) {
+    std::mt19937_64 random(seed);
+    const std::int64_t size = screen_size;
+    const std::int64_t step = crossings_per_side == 0 ? 1 : size / crossings_per_side;
+    const auto coordinate = [&] {
+        const auto any = static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(size + 1));
+        return static_cast<std::int32_t>(any / step * step);
+    };
+    ScreenScene scene;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        std::array<std::uint32_t, 3> vertices;
+        for (std::uint32_t& vertex : vertices) {
+            const ScreenPoint point = {coordinate(), coordinate()};
+            vertex = add_vertex(scene, point, std::int64_t{coordinate()} * (depth_size / size));
+        }
+        add_triangle(scene, vertices, i);
+    }
+    return scene;
+}
+
+ScreenScene star(std::int32_t count) {
+    ScreenScene scene;
+    const ScreenPoint middle = {screen_size / 2, screen_size / 2};
+    const std::int32_t width = screen_size / count;
+    for (std::int32_t i = 0; i < count; ++i) {
+        const std::int32_t y = i % 2 == 0 ? 0 : screen_size;
+        const std::uint32_t tip = add_vertex(scene, middle, i);
+        const std::uint32_t first = add_vertex(scene, {i * width, y}, i);
+        const std::uint32_t last = add_vertex(scene, {i * width + width * 2 / 3, y}, i);
+        add_triangle(scene, {tip, first, last}, static_cast<std::uint32_t>(i));
+    }
+    return scene;
+}
+
+ScreenScene slivers(std::uint64_t seed, std::size_t count) {
+    std::mt19937_64 random(seed);
+    const auto below = [&](std::uint64_t end) { return static_cast<std::int32_t>(random() % end); };
+    ScreenScene scene;
+    const std::int64_t thickness = depth_size / static_cast<std::int64_t>(count + 1);
+    constexpr std::int32_t middle = screen_size / 2;
+    while (scene.triangles.size() < count) {
+        const auto layer = static_cast<std::int64_t>(scene.triangles.size());
+        const bool is_long = below(2) == 0;
+        const std::int32_t reach = is_long ? screen_size / 2 : 2;
+        const std::int32_t x = below(2) == 0 ? middle - reach : middle + below(4);
+        std::array<std::uint32_t, 3> vertices = {
+            add_vertex(scene, {x, middle + below(4)}, layer * thickness),
+            add_vertex(scene, {x, middle + below(4)}, layer * thickness),
+            add_vertex(
+                scene, {middle + below(3) * reach / 2, middle + below(4)}, layer * thickness)};
+        add_triangle(scene, vertices, static_cast<std::uint32_t>(layer * 7919 % 1009));
+    }
+    return scene;
+}
+
+ScreenScene nested_holes(std::int32_t count) {
+    ScreenScene scene;
+    for (std::int32_t i = 0; i < count; ++i) {
+        // Each frame lies within the hole of the one before, and one in three shares its border.
+        const std::int32_t unit = screen_size / (4 * count);
+        const std::int32_t outer = 2 * i * unit - (i % 3 == 2 ? unit : 0);
+        const std::int32_t inner = (2 * i + 1) * unit;
+        std::array<std::uint32_t, 8> corners;
+        for (std::size_t j = 0; j < 8; ++j) {
+            const std::int32_t from = j < 4 ? outer : inner;
+            const std::int32_t to = screen_size - from;
+            corners[j] = add_vertex(
+                scene, {j % 4 == 0 || j % 4 == 3 ? from : to, j % 4 < 2 ? from : to}, 1000 * i);
+        }
+        for (std::size_t j = 0; j < 4; ++j) {
+            const std::size_t next = (j + 1) % 4;
+            const auto source = static_cast<std::uint32_t>(count - i);
+            add_triangle(scene, {corners[j], corners[next], corners[j + 4]}, source);
+            add_triangle(scene, {corners[next], corners[next + 4], corners[j + 4]}, source);
+        }
     }
     return scene;
 }

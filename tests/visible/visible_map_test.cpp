@@ -86,11 +86,13 @@ ScreenScene with_shadows(ScreenScene scene, std::uint64_t seed) {
             any().source,
             static_cast<std::uint32_t>(random() % 3));
     // A shadow lies on its source, which here may be anywhere: as near as what is nearest.
-    for (std::size_t i = surfaces; i < scene.triangles.size(); ++i)
+    for (std::size_t i = surfaces; i < scene.triangles.size(); ++i) {
         for (std::uint32_t& vertex : scene.triangles[i].vertices) {
             scene.vertices.push_back({scene.vertices[vertex].point, depth_size});
             vertex = static_cast<std::uint32_t>(scene.vertices.size() - 1);
         }
+        scene.triangles[i].plane = scene.triangles[i].vertices;
+    }
     scene.unlit.resize(2000);
     for (LightSet& unlit : scene.unlit)
         unlit = random() % 3 == 0 ? 8 : 0;
@@ -202,9 +204,10 @@ TEST(Cells, HoldListsInProportionToTheTrianglesHoweverManyLieOneBehindTheOther) 
 TEST(Cells, AreBlockedByNothingNearerThanWhatCoversThem) {
     std::size_t blocked = 0;
     for (std::uint64_t seed = 0; seed < 40; ++seed) {
-        const ScreenScene scene = seed % 2 == 0
-            ? terrain(seed, 4 << (seed % 5))
-            : layers(seed, 1 + seed % 40, std::int32_t{1} << (1 + seed % 4));
+        ScreenScene scene = seed % 3 == 0 ? terrain(seed, 4 << (seed % 5))
+            : seed % 3 == 1 ? layers(seed, 1 + seed % 40, std::int32_t{1} << (1 + seed % 4))
+                            : tangle(seed, 2 + seed % 30, 8);
+        whole_pieces(scene); // cuts what is tangled to slivers
         std::vector<DepthPlane> planes;
         std::vector<NearnessSlope> slopes;
         for (const ScreenTriangle& triangle : scene.triangles) {
@@ -233,7 +236,7 @@ TEST(Cells, AreBlockedByNothingNearerThanWhatCoversThem) {
             blocked += cells.blocked[cell] > alone[cell] ? 1 : 0;
         }
     }
-    EXPECT_GT(blocked, 300U);
+    EXPECT_GT(blocked, 200U);
 }
 
 TEST(ScreenScene, KeepsTheFirstOfTheTextOfTrianglesInOnePlace) {

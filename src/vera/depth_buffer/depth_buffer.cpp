@@ -104,7 +104,7 @@ void DepthBuffer::sort_into_bands() {
 bool DepthBuffer::is_in_front(std::uint32_t one, std::uint32_t other, NearnessPlace place) const {
     const Face& a = faces_[one];
     const Face& b = faces_[other];
-    FrontOrder found = order_along(a.face, b.face, {place, place});
+    FrontOrder found = order_along(a.face.slope, b.face.slope, {place, place});
     if (found == FrontOrder::unknown)
         found = order_in_overlap(a.face, b.face);
     if (found == FrontOrder::penetrating) {

@@ -2,20 +2,11 @@
 #include "vera/exact/front_order.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 
 namespace vera {
 
 namespace {
-
-/// By how much two planes must be apart at a place to be in a certain order, whatever moving their
-/// corners to the grid, and rounding, did to them.
-double sure_distance(const NearnessSlope& a, const NearnessSlope& b) {
-    // Products are rounded by 2^-53 of what the plane may change over the picture.
-    const double per_step = a.per_step() + b.per_step();
-    return (2 + 0x1p-48 * screen_size) * per_step + 4;
-}
 
 /// What is no farther apart anywhere lies in one plane.
 double coincident_distance(const NearnessSlope& a, const NearnessSlope& b) {
@@ -73,10 +64,6 @@ private:
 
 } // namespace
 
-double NearnessSlope::per_step() const {
-    return std::abs(along_x) + std::abs(along_y);
-}
-
 NearnessSlope nearness_slope(const DepthPlane& plane) {
     const auto area = static_cast<double>(plane.area);
     return {
@@ -86,18 +73,19 @@ NearnessSlope nearness_slope(const DepthPlane& plane) {
         static_cast<double>(plane.along_y) / area};
 }
 
-FrontOrder
-order_along(const FrontFace& a, const FrontFace& b, const std::array<NearnessPlace, 2>& places) {
-    const double sure = sure_distance(a.slope, b.slope);
-    const auto ahead = [&](NearnessPlace place) { return a.slope.at(place) - b.slope.at(place); };
-    const double one = ahead(places[0]);
-    const double other = ahead(places[1]);
-    if (std::min(one, other) > sure)
-        return FrontOrder::first;
-    if (std::max(one, other) < -sure)
-        return FrontOrder::second;
-    return std::max(one, other) > sure && std::min(one, other) < -sure ? FrontOrder::penetrating
-                                                                       : FrontOrder::unknown;
+FrontOrder order_along(
+    const NearnessSlope& a, const NearnessSlope& b, const std::array<NearnessPlace, 2>& places) {
+    const double sure = sure_margin(a) + sure_margin(b);
+    bool first = false;
+    bool second = false;
+    for (const NearnessPlace& place : places) {
+        const double difference = a.at(place) - b.at(place);
+        first = first || difference > sure;
+        second = second || difference < -sure;
+    }
+    if (first == second)
+        return first ? FrontOrder::penetrating : FrontOrder::unknown;
+    return first ? FrontOrder::first : FrontOrder::second;
 }
 
 FrontOrder order_in_overlap(const FrontFace& a, const FrontFace& b) {
@@ -111,7 +99,7 @@ FrontOrder order_in_overlap(const FrontFace& a, const FrontFace& b) {
         a_before_b = std::max(a_before_b, difference);
         b_before_a = std::max(b_before_a, -difference);
     }
-    const double sure = sure_distance(a.slope, b.slope);
+    const double sure = sure_margin(a.slope) + sure_margin(b.slope);
     if (a_before_b > sure && b_before_a > sure)
         return FrontOrder::penetrating;
     if (std::max(a_before_b, b_before_a) <= coincident_distance(a.slope, b.slope))

@@ -4,6 +4,7 @@
 #include "vera/exact/depth_plane.h"
 
 #include <array>
+#include <cmath>
 
 namespace vera {
 
@@ -30,10 +31,17 @@ struct NearnessSlope {
     }
 
     /// The most by which it may change within a step.
-    double per_step() const;
+    double per_step() const { return std::abs(along_x) + std::abs(along_y); }
 };
 
 NearnessSlope nearness_slope(const DepthPlane& plane);
+
+/// Two planes that are farther apart at a place than their margins together are in a certain order,
+/// whatever moving their corners to the grid, and rounding, did to them.
+inline double sure_margin(const NearnessSlope& slope) {
+    // Products are rounded by 2^-53 of what the plane may change over the picture.
+    return (2 + 0x1p-48 * screen_size) * slope.per_step() + 2;
+}
 
 struct FrontFace {
     std::array<ScreenVertex, 3> corners;
@@ -43,8 +51,8 @@ struct FrontFace {
 enum class FrontOrder { first, second, coincident, penetrating, unknown };
 
 /// By two places at which both are: unknown where they are too near to each other there.
-FrontOrder
-order_along(const FrontFace& a, const FrontFace& b, const std::array<NearnessPlace, 2>& places);
+FrontOrder order_along(
+    const NearnessSlope& a, const NearnessSlope& b, const std::array<NearnessPlace, 2>& places);
 
 /// By all places at which both are; never unknown.
 FrontOrder order_in_overlap(const FrontFace& a, const FrontFace& b);

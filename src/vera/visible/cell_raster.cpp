@@ -4,11 +4,13 @@
 #include "vera/exact/front_order.h"
 #include "vera/visible/cells.h"
 #include "vera/visible/edges.h"
+#include "vera/visible/seen_beside.h"
 #include "vera/visible/sheets.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <span>
@@ -28,13 +30,7 @@ struct Raster {
     std::vector<std::uint8_t> is_hidden;      ///< edges that lie behind what covers all their cells
     std::vector<std::uint8_t> is_inner;       ///< edges between two parts of one shadow
     std::vector<std::uint8_t> is_near_change; ///< of edges; empty: all are
-
-    FrontFace face(std::uint32_t triangle) const {
-        return {corners_of(scene, scene.triangles[triangle]), slopes[triangle]};
-    }
 };
-
-enum Sides : std::uint8_t { left_side = 1, right_side = 2 };
 
 constexpr std::uint32_t no_edge = ~std::uint32_t{0};
 
@@ -92,6 +88,7 @@ class EdgeSweep {
 public:
     explicit EdgeSweep(const Raster& raster)
         : raster_(raster)
+        , seen_(raster.scene, raster.slopes)
         , stamps_(raster.scene.triangles.size()) {}
 
     void follow(std::uint32_t edge, VisiblePieces& result);
@@ -108,10 +105,11 @@ private:
     void add_touch(ScreenPoint corner);
     void sort_events();
     void change_active(const Event& event);
-    const Cover* nearest(std::uint8_t side, const Event& first, const Event& last);
+    bool ends_a_shadow() const;
     Seen seen(const Cover* nearest, std::uint8_t side) const;
     bool speaks_here(std::uint32_t edge, const Cover* left, const Cover* right) const;
-    int nearer(std::uint32_t a, std::uint32_t b, double first, double last);
+    bool is_still_hidden() const;
+    std::array<const Cover*, 2> seen_between(const Event& first, const Event& last);
 
     NearnessPlace place_at(double place) const {
         return {begin_.x + place * (end_.x - begin_.x), begin_.y + place * (end_.y - begin_.y)};
@@ -122,14 +120,16 @@ private:
     }
 
     const Raster& raster_;
+    SeenBeside seen_;
     std::vector<std::uint32_t> stamps_; ///< of triangles: the last edge that they were gathered for
     std::uint32_t stamp_ = 0;
     std::vector<std::uint32_t> candidates_;
     std::vector<Cover> covers_;
-    std::vector<SegmentPlace> touches_; ///< where a triangle has a corner on the edge and no more
+    std::vector<SegmentPlace> touches_; ///< where a triangle has a corner on the edge
     std::vector<Event> events_;
     std::vector<std::uint32_t> active_; ///< covers by surfaces
     std::vector<std::uint32_t> active_shadows_;
+    std::uint32_t hidden_by_ = no_cover; ///< on both sides of the part of the edge before
     ScreenPoint begin_;
     ScreenPoint end_;
     VisiblePieces* result_ = nullptr;
@@ -183,13 +183,15 @@ void EdgeSweep::add_across(
     std::size_t count = 0;
     for (std::size_t i = 0; i < 3 && count < 2; ++i) {
         const std::size_t next = (i + 1) % 3;
-        if (sides[i] == 0)
+        if (sides[i] == 0) {
             places[count++] = place_on(begin_, end_, corners[i]);
-        else if ((sides[i] < 0 && sides[next] > 0) || (sides[i] > 0 && sides[next] < 0))
+            add_touch(corners[i]);
+        } else if ((sides[i] < 0 && sides[next] > 0) || (sides[i] > 0 && sides[next] < 0)) {
             // The same two numbers whichever of the two triangles at that side is asked.
             places[count++] = corners[i] < corners[next]
                 ? crossing_place(begin_, end_, corners[i], corners[next])
                 : crossing_place(begin_, end_, corners[next], corners[i]);
+        }
     }
     if (order(places[1], places[0]) < 0)
         std::swap(places[0], places[1]);
@@ -231,7 +233,7 @@ void EdgeSweep::add_cover(std::uint32_t triangle) {
             add_touch(corners[i]);
 }
 
-/// Of a triangle that touches the line of the edge with a corner.
+/// Of a triangle that has a corner on the line of the edge.
 void EdgeSweep::add_touch(ScreenPoint corner) {
     const SegmentPlace place = place_on(begin_, end_, corner);
     if (place.numerator > 0 && place.numerator < place.denominator)
@@ -254,51 +256,45 @@ void EdgeSweep::change_active(const Event& event) {
         return;
     const bool is_shadow = raster_.scene.triangles[covers_[event.cover].triangle].is_shadow();
     std::vector<std::uint32_t>& active = is_shadow ? active_shadows_ : active_;
-    // In the triangles' order, whatever the edge: where the order of three goes round, all edges then
-    // take the same for the nearest.
     if (event.begins)
-        active.insert(
-            std::upper_bound(
-                active.begin(),
-                active.end(),
-                event.cover,
-                [&](std::uint32_t a, std::uint32_t b) {
-                    return covers_[a].triangle < covers_[b].triangle;
-                }),
-            event.cover);
+        active.push_back(event.cover);
     else
         active.erase(std::find(active.begin(), active.end(), event.cover));
 }
 
-/// 1 where a is in front of b between the places, -1 where b is.
-int EdgeSweep::nearer(std::uint32_t a, std::uint32_t b, double first, double last) {
-    const FrontFace face_a = raster_.face(a);
-    const FrontFace face_b = raster_.face(b);
-    FrontOrder found = order_along(face_a, face_b, {place_at(first), place_at(last)});
-    if (found == FrontOrder::unknown)
-        found = order_in_overlap(face_a, face_b);
-    if (found == FrontOrder::penetrating) {
-        result_->penetrating.emplace_back(std::min(a, b), std::max(a, b));
-        return 1;
+/// Whether what hid the part of the edge before hides this one as well.
+bool EdgeSweep::is_still_hidden() const {
+    bool is_there = false;
+    for (const std::uint32_t i : active_) {
+        is_there = is_there || i == hidden_by_;
+        if (covers_[i].sides != (left_side | right_side)
+            && !seen_.hides(covers_[hidden_by_].triangle, covers_[i].triangle))
+            return false;
     }
-    if (found != FrontOrder::coincident)
-        return found == FrontOrder::first ? 1 : -1;
-    // The first of the text is in front.
-    const std::uint32_t source_a = source_of(a);
-    const std::uint32_t source_b = source_of(b);
-    return source_a != source_b ? (source_a < source_b ? 1 : -1) : (a < b ? 1 : -1);
+    return is_there;
 }
 
-const Cover* EdgeSweep::nearest(std::uint8_t side, const Event& first, const Event& last) {
-    const Cover* best = nullptr;
-    for (const std::uint32_t i : active_) {
-        const Cover& cover = covers_[i];
-        if ((cover.sides & side) == 0)
-            continue;
-        if (best == nullptr || nearer(cover.triangle, best->triangle, first.value, last.value) > 0)
-            best = &cover;
-    }
-    return best;
+/// Whether a shadow ends at the edge: other lights may reach what is seen there on its two sides.
+bool EdgeSweep::ends_a_shadow() const {
+    return std::any_of(active_shadows_.begin(), active_shadows_.end(), [&](std::uint32_t i) {
+        return covers_[i].sides != (left_side | right_side);
+    });
+}
+
+/// What is seen on the left and on the right between the events, or nothing where that is the same.
+std::array<const Cover*, 2> EdgeSweep::seen_between(const Event& first, const Event& last) {
+    seen_.start(place_at(first.value), place_at(last.value));
+    const bool asks_always = ends_a_shadow();
+    if (!asks_always && hidden_by_ != no_cover && is_still_hidden())
+        return {};
+    for (const std::uint32_t i : active_)
+        seen_.add(covers_[i].triangle, covers_[i].sides);
+    const SeenBeside::Seen seen = seen_.find(result_->penetrating, asks_always);
+    hidden_by_ = seen.hidden_by == SeenBeside::nothing ? no_cover : active_[seen.hidden_by];
+    const auto cover = [&](std::uint32_t number) {
+        return number == SeenBeside::nothing ? nullptr : &covers_[active_[number]];
+    };
+    return {cover(seen.left), cover(seen.right)};
 }
 
 Seen EdgeSweep::seen(const Cover* nearest, std::uint8_t side) const {
@@ -333,6 +329,7 @@ void EdgeSweep::follow(std::uint32_t edge, VisiblePieces& result) {
         return;
     gather(edge);
     result_ = &result;
+    seen_.follow(begin_, end_);
     covers_.clear();
     touches_.clear();
     for (const std::uint32_t triangle : candidates_)
@@ -340,6 +337,7 @@ void EdgeSweep::follow(std::uint32_t edge, VisiblePieces& result) {
     sort_events();
     active_.clear();
     active_shadows_.clear();
+    hidden_by_ = no_cover;
 
     struct Piece {
         SegmentPlace first;
@@ -371,12 +369,13 @@ void EdgeSweep::follow(std::uint32_t edge, VisiblePieces& result) {
         bool is_touched = false;
         for (; next < events_.size() && is_at_the_same_place(here, events_[next]); ++next) {
             change_active(events_[next]);
-            is_touched = is_touched || events_[next].cover == no_cover;
+            // What covers one side has a corner where it begins and where it ends.
+            is_touched = is_touched || events_[next].cover == no_cover
+                || covers_[events_[next].cover].sides != (left_side | right_side);
         }
         Piece piece = {here.place};
         if (next < events_.size()) {
-            const Cover* left = nearest(left_side, here, events_[next]);
-            const Cover* right = nearest(right_side, here, events_[next]);
+            const auto [left, right] = seen_between(here, events_[next]);
             if (speaks_here(edge, left, right)) {
                 piece.left = seen(left, left_side);
                 piece.right = seen(right, right_side);
@@ -392,24 +391,30 @@ void EdgeSweep::follow(std::uint32_t edge, VisiblePieces& result) {
     }
 }
 
-/// Whether the edge is a point, or lies behind what covers all its cells by more than the margin.
-bool is_hidden(const Raster& raster, const ScreenEdges::Edge& edge, double margin) {
-    const ScreenVertex& a = raster.scene.vertices[edge.begin];
-    const ScreenVertex& b = raster.scene.vertices[edge.end];
-    const double near = static_cast<double>(std::max(a.nearness, b.nearness)) + margin;
-    return a.point == b.point
-        || for_each_cell_along(raster.cells, a.point, b.point, [&](std::size_t cell) {
+/// Whether the edge is a point, or lies behind what covers all its cells, if it is so near.
+bool is_hidden(const Raster& raster, const ScreenEdges::Edge& edge, double near) {
+    const ScreenPoint a = raster.scene.vertices[edge.begin].point;
+    const ScreenPoint b = raster.scene.vertices[edge.end].point;
+    return a == b || for_each_cell_along(raster.cells, a, b, [&](std::size_t cell) {
                return near < raster.cells.blocked[cell];
            });
 }
 
-/// Of each edge the largest hidden_margin() of its triangles.
-std::vector<double> edge_margins(const Raster& raster) {
-    std::vector<double> margins(raster.edges.edges.size());
+/// Of each edge how near it is in the planes of all triangles that have it.
+std::vector<double> nearness_of_edges(const Raster& raster) {
+    std::vector<double> nearness(
+        raster.edges.edges.size(), -std::numeric_limits<double>::infinity());
     for (std::size_t i = 0; i < raster.slopes.size(); ++i)
-        for (const std::uint32_t edge : raster.edges.of_triangle[i])
-            margins[edge] = std::max(margins[edge], hidden_margin(raster.slopes[i]));
-    return margins;
+        for (const std::uint32_t edge : raster.edges.of_triangle[i]) {
+            const auto& [begin, end] = raster.edges.edges[edge];
+            nearness[edge] = std::max(
+                nearness[edge],
+                nearest_for_hiding(
+                    raster.slopes[i],
+                    std::array{
+                        raster.scene.vertices[begin].point, raster.scene.vertices[end].point}));
+        }
+    return nearness;
 }
 
 /// Whether the edge parts two parts of one shadow: beside it the same is seen. (Where several are on
@@ -440,11 +445,11 @@ Raster raster_of(const ScreenScene& scene, const CancelFlag* cancel) {
         raster.is_inner[i] = is_inner(scene, neighbours[i]) ? 1 : 0;
     raster.cells = cells_of(scene, raster.planes, raster.slopes, cancel);
     block_by_sheets(raster.cells, {scene, raster.edges, neighbours, raster.planes, raster.slopes});
-    const std::vector<double> margins = edge_margins(raster);
+    const std::vector<double> nearness = nearness_of_edges(raster);
     raster.is_hidden.resize(raster.edges.edges.size());
     parallel_ranges(raster.is_hidden.size(), 4096, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i)
-            raster.is_hidden[i] = is_hidden(raster, raster.edges.edges[i], margins[i]) ? 1 : 0;
+            raster.is_hidden[i] = is_hidden(raster, raster.edges.edges[i], nearness[i]) ? 1 : 0;
     });
     return raster;
 }

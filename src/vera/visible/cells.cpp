@@ -21,11 +21,6 @@ double least_nearness(const Cells& cells, const DepthPlane& plane, ScreenPoint l
     return least - 1;
 }
 
-double nearest(const std::array<ScreenVertex, 3>& corners) {
-    return static_cast<double>(
-        std::max({corners[0].nearness, corners[1].nearness, corners[2].nearness}));
-}
-
 /// Whether the triangle is as wide and high as a cell.
 bool may_cover_a_cell(const std::array<ScreenVertex, 3>& corners, const Cells& cells) {
     const auto reaches = [&](std::int32_t a, std::int32_t b, std::int32_t c) {
@@ -76,7 +71,8 @@ void for_each_entry(
         if (cancel != nullptr && i % 256 == 0)
             cancel->throw_if_raised();
         const auto corners = corners_of(scene, scene.triangles[i]);
-        const double near = nearest(corners) + hidden_margin(slopes[i]);
+        const double near = nearest_for_hiding(
+            slopes[i], std::array{corners[0].point, corners[1].point, corners[2].point});
         for_each_row_of(cells, corners, [&](std::int32_t row, const RowOfCells& found) {
             for (std::int32_t j = found.touched.first; j <= found.touched.last; ++j)
                 if (const std::size_t cell = cells.number(j, row); near >= cells.blocked[cell])

@@ -119,9 +119,21 @@ Cells cells_of(
 Cells cells_of(const ScreenScene& scene, const CancelFlag* cancel = nullptr);
 
 /// By how much something must be behind what blocks a cell to be hidden there whatever the order of
-/// the two: see front_order.h.
+/// the two: a bit more than by that in which it would be compared.
 inline double hidden_margin(const NearnessSlope& slope) {
-    return 2 * slope.per_step() + 2;
+    return sure_margin(slope) + 0x1p-26 * slope.per_step();
+}
+
+/// How near the plane is at the nearest of the points, as it may be compared with what blocks a cell.
+/// Asked of the plane: a corner that was moved to the grid may be off it.
+template <std::size_t count>
+double nearest_for_hiding(
+    const NearnessSlope& slope, const std::array<ScreenPoint, count>& points) {
+    double nearest = -std::numeric_limits<double>::infinity();
+    for (const ScreenPoint point : points)
+        nearest = std::max(
+            nearest, slope.at({static_cast<double>(point.x), static_cast<double>(point.y)}));
+    return nearest + hidden_margin(slope);
 }
 
 /// Calls visit(number of the cell) for the cells that the segment from a to b touches, until that

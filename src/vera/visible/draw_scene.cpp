@@ -348,7 +348,8 @@ DrawnScene draw_scene(
     const bool has_shadows = settings.shadow_lines
         || (picture.shadows && has_fills(settings.style) && settings.style != DrawingStyle::ids);
     const std::size_t steps = has_shadows ? 3 : 1;
-    WholePieces whole = whole_pieces(screen, progress_part(progress, 0, steps), cancel);
+    WholePieces whole = whole_pieces(
+        screen, progress_part(progress, 0, steps), cancel, settings.engine);
     drawn.cut_rounds = static_cast<std::size_t>(whole.rounds - 1);
     drawn.penetrating = whole.left;
     if (has_shadows) {

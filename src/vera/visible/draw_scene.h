@@ -8,6 +8,7 @@
 #include "vera/scene/scene.h"
 #include "vera/visible/shadows.h"
 #include "vera/visible/map_check.h"
+#include "vera/visible/visibility_engine.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -38,6 +39,7 @@ struct DrawSettings {
         0.1; ///< how far the plane facets of what is curved may lie off it, in pixels
     /// Called, where there is one, with the map before anything is painted; may throw.
     std::function<void(const PrimitiveMap& map)> check;
+    VisibilityEngine engine = VisibilityEngine::cells; ///< the drawing is the same
 };
 
 struct DrawnScene {
@@ -54,7 +56,8 @@ struct DrawnScene {
 
 /// A drawing of what the camera sees, every face an outline, and every shadow where the settings
 /// ask for them: as exact as a grid of 2^22 steps across the picture. Throws InputError where style
-/// ids has more than 2^24 - 1 primitives to tell apart.
+/// ids has more than 2^24 - 1 primitives to tell apart, and
+/// std::runtime_error where memory would not suffice for the engine.
 DrawnScene draw_scene(
     const Scene& scene,
     const Camera& camera,

@@ -3,6 +3,7 @@
 
 #include "vera/exact/front_order.h"
 #include "vera/visible/edges.h"
+#include "vera/visible/plane_sweep.h"
 
 #include <array>
 #include <cmath>
@@ -40,14 +41,14 @@ public:
 
     /// Cuts the triangle's sides where the other's plane passes them. Nothing where one of them was
     /// cut already.
-    void cut(std::uint32_t triangle, const NearnessSlope& other) {
+    void cut(std::uint32_t triangle, const NearnessSlope& own, const NearnessSlope& other) {
         const std::array<ScreenVertex, 3> corners = corners_of(scene_, scene_.triangles[triangle]);
         const std::array<std::uint32_t, 3>& sides = edges_.of_triangle[triangle];
         std::array<double, 3> ahead;
         for (std::size_t i = 0; i < 3; ++i) {
             const ScreenPoint point = corners[i].point;
-            ahead[i] = static_cast<double>(corners[i].nearness)
-                - other.at({static_cast<double>(point.x), static_cast<double>(point.y)});
+            const NearnessPlace place = {static_cast<double>(point.x), static_cast<double>(point.y)};
+            ahead[i] = own.at(place) - other.at(place);
         }
         std::array<std::optional<ScreenVertex>, 3> found;
         for (std::size_t i = 0; i < 3; ++i) {
@@ -121,9 +122,13 @@ void replace_by_parts(
         add(bc, c, ca);
         add(ab, bc, ca);
     }
-    // Of a triangle of a step or two, no part may have an area: it stays.
-    if (scene.triangles.size() == before)
+    if (scene.triangles.size() == before) {
+        // Of one that is hardly as wide as a step, no part has an area. It is left whole, in the plane
+        // that the grid gives it.
+        scene.triangles[number].plane = triangle.vertices;
+        change.triangles.push_back(number);
         return;
+    }
     change.places.push_back(corners_of(scene, triangle));
     scene.triangles[number] = scene.triangles.back();
     scene.triangles.pop_back();
@@ -142,8 +147,8 @@ SceneChange cut_penetrations(
         return nearness_slope(plane_of(scene, scene.triangles[triangle]));
     };
     for (const auto& [a, b] : penetrating) {
-        cuts.cut(a, slope_of(b));
-        cuts.cut(b, slope_of(a));
+        cuts.cut(a, slope_of(a), slope_of(b));
+        cuts.cut(b, slope_of(b), slope_of(a));
     }
     SceneChange change;
     const std::size_t count = scene.triangles.size();
@@ -152,19 +157,26 @@ SceneChange cut_penetrations(
     return change;
 }
 
-WholePieces whole_pieces(ScreenScene& scene, const Progress& progress, const CancelFlag* cancel) {
+WholePieces whole_pieces(
+    ScreenScene& scene,
+    const Progress& progress,
+    const CancelFlag* cancel,
+    VisibilityEngine engine) {
     constexpr int most_rounds = 24;
     // Where each passes through each, cutting all would take the square of their number.
     const std::size_t most_triangles = 16 * scene.triangles.size() + 100'000;
     WholePieces result;
-    result.pieces = cell_raster(scene, progress, cancel);
+    result.pieces = engine == VisibilityEngine::sweep ? plane_sweep(scene, {}, progress, cancel)
+                                                      : cell_raster(scene, progress, cancel);
     while (true) {
         result.left = result.pieces.penetrating.size();
         if (result.left == 0 || result.rounds == most_rounds
             || scene.triangles.size() > most_triangles)
             return result;
         const SceneChange change = cut_penetrations(scene, result.pieces.penetrating);
-        result.pieces = cell_raster_after(change, std::move(result.pieces), scene, {}, cancel);
+        result.pieces = engine == VisibilityEngine::sweep
+            ? plane_sweep(scene, {}, {}, cancel)
+            : cell_raster_after(change, std::move(result.pieces), scene, {}, cancel);
         ++result.rounds;
     }
 }

@@ -4,6 +4,7 @@
 #include "vera/base/parallel.h"
 #include "vera/visible/cell_raster.h"
 #include "vera/visible/screen_scene.h"
+#include "vera/visible/visibility_engine.h"
 
 #include <cstddef>
 #include <span>
@@ -25,8 +26,11 @@ struct WholePieces {
     int rounds = 1;
 };
 
-/// cell_raster() of the scene after everything was cut in it that is seen to penetrate.
-WholePieces
-whole_pieces(ScreenScene& scene, const Progress& progress = {}, const CancelFlag* cancel = nullptr);
+/// What the engine finds in the scene after everything was cut in it that is seen to penetrate.
+WholePieces whole_pieces(
+    ScreenScene& scene,
+    const Progress& progress = {},
+    const CancelFlag* cancel = nullptr,
+    VisibilityEngine engine = VisibilityEngine::cells);
 
 } // namespace vera

@@ -21,8 +21,8 @@ struct Square {
     ScreenPoint high;
 };
 
-/// False where the segment surely has no point of the square.
-bool may_meet(const Square& square, ScreenPoint a, ScreenPoint b) {
+/// Whether the segment has a point of the square: no line parts them.
+bool do_meet(const Square& square, ScreenPoint a, ScreenPoint b) {
     if (std::max(a.x, b.x) < square.low.x || std::min(a.x, b.x) > square.high.x
         || std::max(a.y, b.y) < square.low.y || std::min(a.y, b.y) > square.high.y)
         return false;
@@ -71,11 +71,15 @@ void SheetsOfCell::join(
     std::uint32_t i, std::span<const std::uint32_t> triangles, const Square& square) {
     const ScreenScene& scene = sheets_.scene;
     const ScreenTriangle& triangle = scene.triangles[triangles[i]];
+    bool meets = false;
+    bool contains = true;
     for (std::size_t side = 0; side < 3; ++side) {
         const ScreenPoint from = scene.vertices[triangle.vertices[side]].point;
         const ScreenPoint to = scene.vertices[triangle.vertices[(side + 1) % 3]].point;
-        if (!may_meet(square, from, to))
+        contains = contains && orientation(from, to, square.low) > 0;
+        if (!do_meet(square, from, to))
             continue;
+        meets = true;
         const EdgeNeighbours& beside =
             sheets_.neighbours[sheets_.edges.of_triangle[triangles[i]][side]];
         const std::uint32_t other = beside.left == triangles[i] ? beside.right : beside.left;
@@ -88,14 +92,20 @@ void SheetsOfCell::join(
         else
             parent_[root(i)] = root(static_cast<std::uint32_t>(found - triangles.begin()));
     }
+    // It may be listed in the cell and yet lie beside it.
+    if (!meets && !contains)
+        ends_here_[i] = 1;
 }
 
 /// Not more than how near the triangle is at any of its points in the cell.
 double SheetsOfCell::least_nearness(std::uint32_t triangle, const Square& square) const {
     const auto corners = corners_of(sheets_.scene, sheets_.scene.triangles[triangle]);
-    const auto of_corners = static_cast<double>(
-        std::min({corners[0].nearness, corners[1].nearness, corners[2].nearness}));
     const NearnessSlope& slope = sheets_.slopes[triangle];
+    double of_corners = std::numeric_limits<double>::infinity();
+    for (const ScreenVertex& corner : corners)
+        of_corners = std::min(
+            of_corners,
+            slope.at({static_cast<double>(corner.point.x), static_cast<double>(corner.point.y)}));
     double of_square = std::numeric_limits<double>::infinity();
     for (const std::int32_t x : {square.low.x, square.high.x})
         for (const std::int32_t y : {square.low.y, square.high.y})
@@ -130,9 +140,9 @@ double SheetsOfCell::blocked(std::span<const std::uint32_t> triangles, const Squ
 
 double nearest_of(const SheetScene& sheets, std::uint32_t triangle) {
     const auto corners = corners_of(sheets.scene, sheets.scene.triangles[triangle]);
-    return static_cast<double>(
-               std::max({corners[0].nearness, corners[1].nearness, corners[2].nearness}))
-        + hidden_margin(sheets.slopes[triangle]);
+    return nearest_for_hiding(
+        sheets.slopes[triangle],
+        std::array{corners[0].point, corners[1].point, corners[2].point});
 }
 
 /// Takes what is hidden out of the cells' lists.

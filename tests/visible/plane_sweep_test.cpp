@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vera/visible/drawn_faces.h"
+#include "vera/visible/penetrations.h"
+#include "vera/visible/plane_sweep.h"
+#include "vera/visible/projection.h"
+#include "vera/visible/visible_map.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "accel/random_scene.h"
+#include "visible/screen_scenes.h"
+#include <gtest/gtest.h>
+
+namespace vera {
+namespace {
+
+struct LessPoint {
+    bool operator()(const RationalPoint& a, const RationalPoint& b) const {
+        return order(a, b) < 0;
+    }
+};
+
+/// A piece between points at which something that is seen ends or turns, from left to right.
+struct MaximalPiece {
+    RationalPoint from;
+    RationalPoint to;
+    std::uint32_t left = 0; ///< sources
+    std::uint32_t right = 0;
+    ScreenStep way;
+
+    friend bool operator==(const MaximalPiece& a, const MaximalPiece& b) {
+        return a.from == b.from && a.to == b.to && a.left == b.left && a.right == b.right;
+    }
+
+    friend bool operator<(const MaximalPiece& a, const MaximalPiece& b) {
+        if (a.from != b.from)
+            return order(a.from, b.from) < 0;
+        return a.to != b.to ? order(a.to, b.to) < 0
+                            : std::pair(a.left, a.right) < std::pair(b.left, b.right);
+    }
+};
+
+/// Joins pieces where nothing else ends.
+class Joining {
+public:
+    Joining(const ScreenScene& scene, const VisiblePieces& found) {
+        const auto source = [&](std::uint32_t triangle) {
+            return triangle == no_triangle ? no_source : scene.triangles[triangle].source;
+        };
+        for (const VisiblePiece& piece : found.pieces) {
+            const bool is_rightward = order(piece.from, piece.to) < 0;
+            const ScreenPoint begin = is_rightward ? piece.edge_begin : piece.edge_end;
+            const ScreenPoint end = is_rightward ? piece.edge_end : piece.edge_begin;
+            MaximalPiece one = {
+                piece.from, piece.to, source(piece.left), source(piece.right), step(begin, end)};
+            if (!is_rightward) {
+                std::swap(one.from, one.to);
+                std::swap(one.left, one.right);
+            }
+            at_[one.from].push_back(pieces_.size());
+            at_[one.to].push_back(pieces_.size());
+            pieces_.push_back(one);
+        }
+    }
+
+    /// In an order that is no matter of how they were found.
+    std::vector<MaximalPiece> result() {
+        std::vector<MaximalPiece> result;
+        for (std::size_t first = 0; first < pieces_.size(); ++first) {
+            if (neighbor(first, pieces_[first].from) != none)
+                continue;
+            MaximalPiece whole = pieces_[first];
+            for (std::size_t next = neighbor(first, whole.to); next != none;
+                 next = neighbor(next, whole.to))
+                whole.to = pieces_[next].to;
+            result.push_back(whole);
+        }
+        std::sort(result.begin(), result.end());
+        return result;
+    }
+
+private:
+    static constexpr std::size_t none = ~std::size_t{0};
+
+    /// The one that goes on straight at that end of the piece, with the same beside it.
+    std::size_t neighbor(std::size_t piece, const RationalPoint& end) {
+        const std::vector<std::size_t>& here = at_[end];
+        if (here.size() != 2)
+            return none;
+        const std::size_t other = here[0] == piece ? here[1] : here[0];
+        const MaximalPiece& a = pieces_[piece];
+        const MaximalPiece& b = pieces_[other];
+        const bool goes_on = (a.to == b.from || a.from == b.to) && cross(a.way, b.way) == 0
+            && a.left == b.left && a.right == b.right;
+        return goes_on ? other : none;
+    }
+
+    std::vector<MaximalPiece> pieces_;
+    std::map<RationalPoint, std::vector<std::size_t>, LessPoint> at_;
+};
+
+std::vector<MaximalPiece> maximal(const ScreenScene& scene, const VisiblePieces& found) {
+    return Joining(scene, found).result();
+}
+
+void expect_same_maps(const VisibleMap& a, const VisibleMap& b, const std::string& what) {
+    ASSERT_EQ(a.rings.size(), b.rings.size()) << what;
+    EXPECT_EQ(a.joined, b.joined) << what;
+    for (std::size_t i = 0; i < a.rings.size(); ++i) {
+        const auto& one = a.rings[i];
+        const auto& other = b.rings[i];
+        ASSERT_EQ(one.source, other.source) << what;
+        ASSERT_EQ(one.count, other.count) << what;
+        for (std::size_t j = 0; j < one.count; ++j) {
+            EXPECT_EQ(a.vertices[a.vertices_of(one)[j]], b.vertices[b.vertices_of(other)[j]])
+                << what;
+            EXPECT_EQ(a.ring_across[one.first + j], b.ring_across[other.first + j]) << what;
+        }
+    }
+}
+
+void expect_same(const ScreenScene& scene, const std::string& what) {
+    const VisiblePieces by_cells = cell_raster(scene);
+    const VisiblePieces by_sweep = plane_sweep(scene);
+    EXPECT_EQ(by_cells.penetrating, by_sweep.penetrating) << what;
+    const auto expected = maximal(scene, by_cells);
+    const auto found = maximal(scene, by_sweep);
+    EXPECT_EQ(expected.size(), found.size()) << what;
+    EXPECT_TRUE(expected == found) << what;
+    expect_same_maps(visible_map(scene, by_sweep), visible_map(scene, by_cells), what);
+}
+
+TEST(PlaneSweep, SeesLikeTheCellsWhatLiesInLayersOnFewPoints) {
+    for (std::uint64_t seed = 0; seed < 400 && !HasFailure(); ++seed)
+        expect_same(
+            testing::layers(seed, 1 + seed % 60, std::int32_t{1} << (1 + seed % 4)),
+            "seed " + std::to_string(seed));
+}
+
+TEST(PlaneSweep, SeesLikeTheCellsWhatIsScattered) {
+    for (std::uint64_t seed = 0; seed < 12 && !HasFailure(); ++seed)
+        expect_same(
+            testing::scattered(seed, 400, screen_size >> (seed % 6)),
+            "seed " + std::to_string(seed));
+    // So small that much shares its corners and sides.
+    for (std::uint64_t seed = 0; seed < 100 && !HasFailure(); ++seed) {
+        ScreenScene scene = testing::scattered(seed, 60, 8);
+        for (ScreenVertex& vertex : scene.vertices)
+            vertex.point = {vertex.point.x % 12, vertex.point.y % 12};
+        ScreenScene moved;
+        moved.vertices = scene.vertices;
+        for (const ScreenTriangle& triangle : scene.triangles)
+            add_triangle(moved, triangle.vertices, triangle.source);
+        expect_same(moved, "seed " + std::to_string(seed));
+    }
+}
+
+TEST(PlaneSweep, SeesLikeTheCellsATerrain) {
+    for (std::uint64_t seed = 0; seed < 6 && !HasFailure(); ++seed)
+        expect_same(testing::terrain(seed, 4 << (seed % 4)), "seed " + std::to_string(seed));
+}
+
+TEST(PlaneSweep, SeesLikeTheCellsAStarAndSliversAndNestedHoles) {
+    expect_same(testing::star(500), "star");
+    for (std::int32_t count = 1; count < 20; ++count)
+        expect_same(testing::nested_holes(count), "holes " + std::to_string(count));
+    for (std::uint64_t seed = 0; seed < 200 && !HasFailure(); ++seed)
+        expect_same(testing::slivers(seed, 2 + seed % 30), "seed " + std::to_string(seed));
+}
+
+TEST(PlaneSweep, SeesLikeTheCellsWhatLiesInOnePlane) {
+    for (std::uint64_t seed = 0; seed < 200 && !HasFailure(); ++seed) {
+        ScreenScene scene = testing::layers(seed, 2 + seed % 30, std::int32_t{1} << (1 + seed % 3));
+        for (ScreenVertex& vertex : scene.vertices)
+            vertex.nearness = seed % 2 == 0 ? 5 : std::int64_t{vertex.point.x} + 2 * vertex.point.y;
+        expect_same(scene, "seed " + std::to_string(seed));
+    }
+}
+
+TEST(PlaneSweep, SeesLikeTheCellsWhatIsSoCloseThatTheOrderIsNotTransitive) {
+    // Two planes two depths apart are coincident, so that the first of the text is in front; four
+    // apart they are not: a may be before b, b before c and c before a.
+    for (std::uint64_t seed = 0; seed < 300 && !HasFailure(); ++seed) {
+        ScreenScene scene = testing::layers(seed, 2 + seed % 40, std::int32_t{1} << (1 + seed % 4));
+        for (const ScreenTriangle& triangle : scene.triangles)
+            for (const std::uint32_t i : triangle.vertices) {
+                ScreenVertex& vertex = scene.vertices[i];
+                vertex.nearness = 1000 + triangle.source % 7
+                    + (seed % 2 == 0 ? 0 : vertex.point.x + 3 * std::int64_t{vertex.point.y});
+            }
+        expect_same(scene, "seed " + std::to_string(seed));
+    }
+}
+
+TEST(PlaneSweep, SeesLikeTheCellsNothingAndOneTriangle) {
+    expect_same({}, "nothing");
+    ScreenScene scene;
+    scene.vertices = {{{0, 0}, 5}, {{screen_size, 0}, 5}, {{0, screen_size}, 5}};
+    add_triangle(scene, {0, 1, 2}, 4);
+    expect_same(scene, "one");
+    EXPECT_EQ(plane_sweep(scene).pieces.size(), 3U);
+}
+
+TEST(PlaneSweep, SeesLikeTheCellsTanglesAfterCutting) {
+    for (std::uint64_t seed = 0; seed < 150 && !HasFailure(); ++seed) {
+        const std::string what = "seed " + std::to_string(seed);
+        ScreenScene scene = testing::tangle(seed, 2 + seed % 30, seed % 3 == 0 ? 8 : 0);
+        const WholePieces whole = whole_pieces(
+            scene, {}, nullptr, seed % 2 == 0 ? VisibilityEngine::cells : VisibilityEngine::sweep);
+        EXPECT_EQ(whole.left, 0U) << what;
+        expect_same(scene, what);
+    }
+}
+
+TEST(PlaneSweep, TellsLikeTheCellsWhatPenetrates) {
+    for (std::uint64_t seed = 0; seed < 250; ++seed) {
+        const ScreenScene scene = testing::tangle(seed, 2 + seed % 30);
+        EXPECT_EQ(plane_sweep(scene).penetrating, cell_raster(scene).penetrating)
+            << "seed " << seed;
+    }
+}
+
+TEST(PlaneSweep, SeesLikeTheCellsWholeScenes) {
+    for (int number = 0; number < 8 && !HasFailure(); ++number) {
+        testing::RandomSceneSettings settings;
+        settings.items = 8 + static_cast<std::size_t>(number) % 3 * 6;
+        const Scene scene = testing::random_scene(static_cast<std::uint64_t>(number), settings);
+        Camera camera;
+        camera.viewpoint = {3, 5.0 + number, 7};
+        camera.direction = normalized(-camera.viewpoint);
+        const Vec3 across = normalized(cross(camera.direction, {0.1, 0.2, 1}));
+        const Vec3 up = cross(across, camera.direction);
+        camera.lower_left = -5 * across - 5 * up;
+        camera.lower_right = 5 * across - 5 * up;
+        camera.upper_left = 5 * up - 5 * across;
+        const CameraMap map(camera);
+        const Facets all = facets(scene, [](Vec3) { return 0.02; });
+        const DrawnFaces faces = drawn_faces(scene, all, FaceUnit::plane);
+        ScreenScene screen = screen_scene(all, map, faces.of_facet);
+        sort_by_place(screen);
+        ScreenScene again = screen;
+        const WholePieces whole = whole_pieces(screen);
+        const WholePieces swept = whole_pieces(again, {}, nullptr, VisibilityEngine::sweep);
+        const std::string what = "scene " + std::to_string(number);
+        EXPECT_EQ(whole.rounds, swept.rounds) << what;
+        EXPECT_GT(whole.pieces.pieces.size(), 0U) << what;
+        EXPECT_TRUE(maximal(screen, whole.pieces) == maximal(again, swept.pieces)) << what;
+        expect_same_maps(visible_map(again, swept.pieces), visible_map(screen, whole.pieces), what);
+    }
+}
+
+TEST(PlaneSweep, RefusesWhatMemoryWouldNotHold) {
+    const ScreenScene scene = testing::scattered(1, 400, screen_size / 2);
+    SweepCounts counts;
+    plane_sweep(scene, {std::nullopt, &counts});
+    const SweepForecast forecast = sweep_forecast(scene);
+    // Of so few edges all pairs are asked.
+    EXPECT_EQ(forecast.crossings, static_cast<double>(counts.crossings));
+    EXPECT_GT(counts.crossings, 1000U);
+    const auto bytes = static_cast<std::uint64_t>(forecast.bytes);
+    EXPECT_NO_THROW(plane_sweep(scene, {bytes + 1, nullptr}));
+    try {
+        plane_sweep(scene, {bytes - 1, nullptr});
+        FAIL();
+    } catch (const std::runtime_error& error) {
+        const std::string message = error.what();
+        const std::string crossings = std::to_string(counts.crossings) + " crossings of edges";
+        EXPECT_NE(message.find(crossings), std::string::npos) << message;
+        EXPECT_NE(message.find("--engine cells"), std::string::npos) << message;
+    }
+}
+
+TEST(PlaneSweep, ForecastsFromSomePairsHowManyCrossingsThereAre) {
+    const ScreenScene scene = testing::scattered(2, 3000, screen_size / 4);
+    SweepCounts counts;
+    plane_sweep(scene, {std::nullopt, &counts});
+    EXPECT_NEAR(sweep_forecast(scene).crossings / static_cast<double>(counts.crossings), 1, 0.1);
+}
+
+TEST(PlaneSweep, EndsWhenItIsCancelledAndTellsHowFarItIs) {
+    const ScreenScene scene = testing::scattered(1, 400, screen_size / 2);
+    double last = 0;
+    int told = 0;
+    plane_sweep(scene, {}, [&](double done) {
+        EXPECT_GE(done, last);
+        EXPECT_LE(done, 1);
+        last = done;
+        ++told;
+    });
+    EXPECT_GT(told, 10);
+    EXPECT_GT(last, 0.9);
+    CancelFlag cancel;
+    cancel.raise();
+    EXPECT_THROW(plane_sweep(scene, {}, {}, &cancel), Cancelled);
+}
+
+} // namespace
+} // namespace vera
