@@ -137,6 +137,56 @@ Q
 )");
 }
 
+TEST(WritePdf, HasShadingsAsPatterns) {
+    const std::vector<std::string> found = objects(written(write_pdf, drawing_of_gradients()));
+    ASSERT_EQ(found.size(), 8U);
+    EXPECT_THAT(found[2], HasSubstr("/Pattern<</P0 7 0 R/P1 8 0 R>>"));
+    EXPECT_EQ(inflated(found[3]), R"(q
+.0075 0 0 -.0075 0 22.5 cm
+/OC /L0 BDC
+200 w 0 J 1 j [] 0 d
+/Pattern cs /P0 scn
+100 100 m
+600 100 l
+600 1100 l
+100 1100 l
+h
+f
+/Pattern CS /P0 SCN
+600 100 m
+600 1100 l
+S
+600 100 m
+1100 100 l
+1100 1100 l
+600 1100 l
+h
+f
+/Pattern cs /P1 scn
+500 1500 m
+1500 1500 l
+1500 2500 l
+500 2500 l
+h
+f
+EMC
+Q
+)");
+    EXPECT_EQ(
+        found[6],
+        "<</PatternType 2/Shading<</ShadingType 2/ColorSpace/DeviceRGB/Coords[0 0 1 0]"
+        "/Extend[true true]/Function<</FunctionType 2/Domain[0 1]/C0[1 0 0]/C1[0 0 1]/N 1>>>>"
+        "/Matrix[7.5 0 0 -7.5 .75 21.75]>>");
+    EXPECT_EQ(
+        found[7],
+        "<</PatternType 2/Shading<</ShadingType 3/ColorSpace/DeviceRGB/Coords[0 0 0 0 0 1]"
+        "/Extend[true true]/Function<</FunctionType 3/Domain[0 1]/Functions["
+        "<</FunctionType 2/Domain[0 1]/C0[1 1 1]/C1[1 1 1]/N 1>>"
+        "<</FunctionType 2/Domain[0 1]/C0[1 1 1]/C1[0 1 0]/N 1>>"
+        "<</FunctionType 2/Domain[0 1]/C0[0 1 0]/C1[0 0 0]/N 1>>]"
+        "/Bounds[.25 .5]/Encode[0 1 0 1 0 1]>>>>/Matrix[3 -2.25 -1.125 -1.5 7.5 7.5]>>");
+}
+
 TEST(WritePdf, IsAWholeFileForAnEmptyDrawing) {
     const std::vector<std::string> found = objects(written(write_pdf, {}));
     ASSERT_EQ(found.size(), 5U);

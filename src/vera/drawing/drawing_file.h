@@ -62,7 +62,7 @@ void write_svg(const Drawing& drawing, const DrawingSettings& settings, std::str
 /// A PDF 1.7 of one page with the same layers.
 void write_pdf(const Drawing& drawing, const DrawingSettings& settings, std::string& bytes);
 
-/// An Encapsulated PostScript of level 2.
+/// An Encapsulated PostScript of level 2, or of level 3 where there are gradients.
 void write_eps(const Drawing& drawing, const DrawingSettings& settings, std::string& bytes);
 
 /// Writes the drawing to a file, whole or not at all; "-" is standard output. Throws

@@ -86,6 +86,7 @@ void write_pdf(const Drawing& drawing, const DrawingSettings& settings, std::str
 
     const Lattice lattice(settings.precision);
     const Layers drawn = layers(drawing, settings, lattice);
+    const Gradients gradients(drawn.fills);
     const std::vector<std::string> names = layer_names(drawn);
     const PageSize size = page_size(drawing, settings);
 
@@ -100,21 +101,30 @@ void write_pdf(const Drawing& drawing, const DrawingSettings& settings, std::str
         layer_list =
             fmt::format("/OCProperties<</OCGs[{0}]/D<</Order[{0}]/ON[{0}]>>>>", references);
 
+    const std::size_t first_pattern = first_layer + names.size();
+    std::string patterns;
+    for (std::size_t i = 0; i < gradients.count(); ++i)
+        patterns += fmt::format("/P{} {} 0 R", i, first_pattern + i);
+    if (!patterns.empty())
+        patterns = "/Pattern<<" + patterns + ">>";
+
     const LayerMarks marks = {
         [](std::size_t layer, const std::string&) { return fmt::format("/OC /L{} BDC\n", layer); },
         "EMC\n"};
-    const std::string packed = deflated(page_content(drawing, settings, lattice, drawn, marks));
+    const std::string packed =
+        deflated(page_content(drawing, settings, lattice, drawn, gradients, marks));
 
     PdfObjects objects(bytes);
     objects.add(fmt::format("<</Type/Catalog/Pages {} 0 R{}>>", +pages, layer_list));
     objects.add(fmt::format("<</Type/Pages/Kids[{} 0 R]/Count 1>>", +page));
     objects.add(fmt::format(
-        "<</Type/Page/Parent {} 0 R/MediaBox[0 0 {} {}]/Resources<</Properties<<{}>>>>"
+        "<</Type/Page/Parent {} 0 R/MediaBox[0 0 {} {}]/Resources<</Properties<<{}>>{}>>"
         "/Contents {} 0 R>>",
         +pages,
         decimal(size.width, 4),
         decimal(size.height, 4),
         resources,
+        patterns,
         +content));
     objects.add(fmt::format(
         "<</Length {}/Filter/FlateDecode>>\nstream\n{}\nendstream", packed.size(), packed));
@@ -126,6 +136,11 @@ void write_pdf(const Drawing& drawing, const DrawingSettings& settings, std::str
     objects.add("<<" + texts + ">>");
     for (const std::string& name : names)
         objects.add(fmt::format("<</Type/OCG/Name{}>>", pdf_string(name)));
+    for (std::size_t i = 0; i < gradients.count(); ++i)
+        objects.add(fmt::format(
+            "<<{}/Matrix{}>>",
+            shading_pattern(gradients[i]),
+            pattern_matrix(gradients[i], size, drawing.width)));
     objects.finish(catalog, information);
 }
 
