@@ -34,6 +34,7 @@ struct Request {
     std::string style = "flat";
     double precision = 0.01;
     double deviation = 0.1;
+    double color_tolerance = 1;
     double page = 0;
     double threads = 0;
     bool json = false;
@@ -66,6 +67,8 @@ DrawingFormat output_format(const Request& request) {
 }
 
 DrawingStyle style_of(const Request& request) {
+    if (request.style == "shaded")
+        return DrawingStyle::shaded;
     if (request.style == "ids")
         return DrawingStyle::ids;
     return request.style == "lines" ? DrawingStyle::lines : DrawingStyle::flat;
@@ -121,6 +124,8 @@ void draw(const Request& request, const Console& console) {
     DrawSettings settings;
     settings.style = style_of(request);
     settings.deviation = number_of("--deviation", request.deviation, 1e-4, 100);
+    settings.color_tolerance =
+        number_of("--color-tolerance", request.color_tolerance, 0.6, 255) / 255;
     DrawingSettings file_settings;
     file_settings.precision = number_of("--precision", request.precision, 1e-6, 1);
     file_settings.page_width_millimeters = number_of("--page", request.page, 0, 1e5);
@@ -134,7 +139,7 @@ void draw(const Request& request, const Console& console) {
     OutputFile file(request.output);
     report.read_seconds = watch.lap();
 
-    if (settings.style == DrawingStyle::flat)
+    if (settings.style == DrawingStyle::flat || settings.style == DrawingStyle::shaded)
         expose_as_picture(prepared, console);
     DrawnScene drawn;
     {
@@ -199,10 +204,11 @@ void add_draw_command(CLI::App& app, Console& console) {
         ->add_option(
             "--style",
             request->style,
-            "flat: the colours that the light gives, without shadows and mirrors; ids: each "
-            "primitive's number as a colour; lines: silhouettes and creases")
-        ->type_name("flat|ids|lines")
-        ->check(CLI::IsMember({"flat", "ids", "lines"}).description(""))
+            "flat: the colours that the light gives, without shadows and mirrors; shaded: the same "
+            "in gradients; ids: each primitive's number as a colour; lines: silhouettes and "
+            "creases")
+        ->type_name("flat|shaded|ids|lines")
+        ->check(CLI::IsMember({"flat", "shaded", "ids", "lines"}).description(""))
         ->capture_default_str();
     command
         ->add_option("--precision", request->precision, "of the coordinates, in pixels of --raster")
@@ -213,6 +219,13 @@ void add_draw_command(CLI::App& app, Console& console) {
             "--deviation",
             request->deviation,
             "how far the facets of curved surfaces may lie off these, in pixels")
+        ->type_name("X")
+        ->capture_default_str();
+    command
+        ->add_option(
+            "--color-tolerance",
+            request->color_tolerance,
+            "how far the gradients of style shaded may be off the light, in steps of 255")
         ->type_name("X")
         ->capture_default_str();
     command

@@ -92,6 +92,28 @@ TEST(DrawCommand, GivesEachPrimitiveItsNumberForColourInTheOrderOfTheText) {
     EXPECT_TRUE(holds(svg, "<title>sphere of pair, line 10</title>")) << svg;
 }
 
+TEST(DrawCommand, ShadesWithGradientsWithinATolerance) {
+    const ScratchFolder folder;
+    folder.write("a.vera", view + "P4 -9 0 9  9 0 9  9 0 -9  -9 0 -9\nSP -1 1 0 0.9\n");
+    const std::string command =
+        "draw a.vera --style shaded --sky 0.2 0.3 0.9 --horizon 1 1 1 --earth 0 0 0";
+    ASSERT_EQ(run_vera(folder, command + " -o a.svg").exit_code, 0);
+    ASSERT_EQ(run_vera(folder, command + " --color-tolerance 8 -o b.svg").exit_code, 0);
+    const std::string fine = folder.read("a.svg");
+    const std::string coarse = folder.read("b.svg");
+    EXPECT_TRUE(holds(fine, "<g id=\"sky\"")) << fine;
+    EXPECT_TRUE(holds(fine, "<linearGradient id=\"g1\" gradientUnits=\"userSpaceOnUse\"")) << fine;
+    EXPECT_TRUE(holds(fine, " fill=\"url(#g1)\"")) << fine;
+    EXPECT_FALSE(holds(fine, "seam")) << fine;
+    // A sphere is shaded as a whole, not facet by facet.
+    EXPECT_LT(count_of(coarse, "<path id=\"face-2"), 60U);
+    EXPECT_LT(2 * count_of(coarse, "<path "), count_of(fine, "<path "));
+    ASSERT_EQ(run_vera(folder, command + " -o a.pdf").exit_code, 0);
+    EXPECT_TRUE(holds(folder.read("a.pdf"), "/PatternType 2/Shading<</ShadingType 2/"));
+    ASSERT_EQ(run_vera(folder, command + " -o a.eps").exit_code, 0);
+    EXPECT_TRUE(holds(folder.read("a.eps"), "%%LanguageLevel: 3\n"));
+}
+
 TEST(DrawCommand, DrawsSilhouettesAndCreasesAsLayersOfLines) {
     const ScratchFolder folder;
     // Two walls that meet at a right angle.
@@ -151,7 +173,7 @@ TEST(DrawCommand, GivesTheSameFileInEveryRunForAnyNumberOfThreads) {
     const ScratchFolder folder;
     // They pass through each other, so that cutting is among the work that is shared out.
     folder.write("a.vera", view + "SP -0.5 1.7 0 1\nSP 0.5 2.1 0.3 1\nSP 0 1 0.4 0.9\n");
-    for (const char* style : {"flat", "ids", "lines"})
+    for (const char* style : {"flat", "shaded", "ids", "lines"})
         for (const char* format : {"svg", "pdf", "eps"}) {
             const std::string command =
                 std::string("draw a.vera --deviation 1 --style ") + style + " --format " + format;
@@ -184,13 +206,15 @@ TEST(DrawCommand, RefusesWhatItCannotUnderstand) {
          "with one of svg, pdf, eps"},
         {"-o a.svg --format png", "--format does not know 'png'; it knows svg, pdf, eps"},
         {"-o a.svg --style lnes",
-         "--style takes flat, ids or lines; found 'lnes'; did you mean 'lines'?"},
-        {"-o a.svg --style toon", "--style takes flat, ids or lines; found 'toon'"},
+         "--style takes flat, shaded, ids or lines; found 'lnes'; did you mean 'lines'?"},
+        {"-o a.svg --style toon", "--style takes flat, shaded, ids or lines; found 'toon'"},
         {"-o a.svg --precision 0", "--precision takes a number from 1e-06 to 1; found 0"},
         {"-o a.svg --precision 2", "--precision takes a number from 1e-06 to 1; found 2"},
         {"-o a.svg --precision nan", "--precision takes a number from 1e-06 to 1; found nan"},
         {"-o a.svg --deviation 0", "--deviation takes a number from 0.0001 to 100; found 0"},
         {"-o a.svg --deviation 101", "--deviation takes a number from 0.0001 to 100; found 101"},
+        {"-o a.svg --color-tolerance 0.5",
+         "--color-tolerance takes a number from 0.6 to 255; found 0.5"},
         {"-o a.svg --page -1", "--page takes a number from 0 to 100000; found -1"},
         {"-o a.svg --threads 1.5", "--threads takes a whole number from 0 to 1024; found 1.5"},
         {"-o a.svg --threads 1025", "--threads takes a whole number from 0 to 1024; found 1025"},

@@ -9,10 +9,13 @@
 #include "vera/visible/outline_strokes.h"
 #include "vera/visible/penetrations.h"
 #include "vera/visible/projection.h"
+#include "vera/visible/seam_strips.h"
+#include "vera/visible/shaded_outlines.h"
 #include "vera/visible/visible_map.h"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <span>
 #include <string>
@@ -171,6 +174,40 @@ void cover_seams(
     }
 }
 
+/// The same for areas that change their colours from place to place: a face goes on below those
+/// beside it only close to their common border, whatever their size.
+void cover_seams_closely(
+    const Painted& painted,
+    const FaceRings& all,
+    std::span<const VisibleMap::Ring> own,
+    FilledOutline& outline) {
+    constexpr std::size_t most_corners = 1024; // of a neighbour: else strips take too long
+    const std::size_t own_rings = outline.rings.size();
+    for (std::size_t i = 0; i < own_rings; ++i) {
+        std::vector<DrawingPoint> points = outline.rings[i];
+        points.push_back(points.front());
+        const auto across = [&](std::size_t side) {
+            return painted.map.ring_across[own[i].first + side];
+        };
+        for (std::size_t side = 0, end = 0; side + 1 < points.size(); side = end) {
+            for (end = side + 1; end + 1 < points.size() && across(end) == across(side);)
+                ++end;
+            if (across(side) == no_source || across(side) <= own[i].source)
+                continue;
+            const std::span border = std::span(points).subspan(side, end - side + 1);
+            const auto others = all.of_face(across(side));
+            if (vertex_count(others) > most_corners) {
+                outline.seams.emplace_back(border.begin(), border.end());
+                continue;
+            }
+            FilledOutline neighbour;
+            add_rings(painted, others, neighbour);
+            std::ranges::move(
+                seam_strips(border, neighbour.rings), std::back_inserter(outline.rings));
+        }
+    }
+}
+
 DrawingColor
 color_of(const Painted& painted, std::uint32_t face, std::span<const VisibleMap::Ring> rings) {
     const Facets::Triangle& facet = painted.facets.triangles[painted.faces.first_facet[face]];
@@ -183,7 +220,26 @@ color_of(const Painted& painted, std::uint32_t face, std::span<const VisibleMap:
     return as_drawn(light_of_face(painted, face, *largest));
 }
 
-void add_fills(const Painted& painted, Drawing& drawing) {
+/// The firmament and, on it, the outlines as the light shades them.
+void add_shaded(
+    const Painted& painted,
+    std::vector<LitOutline> lit,
+    const CancelFlag* cancel,
+    Drawing& drawing) {
+    const PaintTolerance tolerance = {painted.settings.color_tolerance, painted.settings.deviation};
+    DrawnFirmament firmament = drawn_firmament(painted.camera, painted.picture, tolerance);
+    drawing.background = firmament.background;
+    drawing.fills = std::move(firmament.sky);
+    std::ranges::move(
+        shaded_outlines(
+            std::move(lit),
+            {painted.scene, painted.camera, painted.picture, painted.facets, tolerance, cancel}),
+        std::back_inserter(drawing.fills));
+}
+
+void add_fills(const Painted& painted, const CancelFlag* cancel, Drawing& drawing) {
+    const bool shaded = painted.settings.style == DrawingStyle::shaded;
+    std::vector<LitOutline> lit;
     const FaceRings all(painted.map);
     std::uint64_t grouped = 0;
     std::string group;
@@ -198,13 +254,21 @@ void add_fills(const Painted& painted, Drawing& drawing) {
         FilledOutline outline;
         outline.id = "face-" + std::to_string(primitive + 1);
         outline.group = group;
-        outline.color = color_of(painted, face, own);
+        if (!shaded)
+            outline.color = color_of(painted, face, own);
         add_rings(painted, own, outline);
         // Numbers are to be compared, not looked at.
-        if (painted.settings.style != DrawingStyle::ids)
+        if (shaded)
+            cover_seams_closely(painted, all, own, outline);
+        else if (painted.settings.style != DrawingStyle::ids)
             cover_seams(painted, all, own, outline);
-        drawing.fills.push_back(std::move(outline));
+        if (shaded)
+            lit.push_back({std::move(outline), own.size(), facet});
+        else
+            drawing.fills.push_back(std::move(outline));
     }
+    if (shaded)
+        add_shaded(painted, std::move(lit), cancel, drawing);
 }
 
 std::optional<DrawingColor> background(const Painted& painted) {
@@ -214,10 +278,17 @@ std::optional<DrawingColor> background(const Painted& painted) {
     case DrawingStyle::flat:
         return as_drawn(firmament_color(
             painted.picture.firmament, view_ray(painted.camera, 0.5, 0.5).direction));
+    case DrawingStyle::shaded: // painted with its outlines
     case DrawingStyle::lines:
         break;
     }
     return std::nullopt;
+}
+
+FaceUnit unit_of(DrawingStyle style) {
+    if (style == DrawingStyle::ids)
+        return FaceUnit::primitive;
+    return style == DrawingStyle::shaded ? FaceUnit::smooth : FaceUnit::plane;
 }
 
 void check_numbers(const Facets& facets) {
@@ -246,8 +317,7 @@ DrawnScene draw_scene(
     const Facets all = facets(scene, deviation, cancel);
     if (settings.style == DrawingStyle::ids)
         check_numbers(all);
-    const DrawnFaces faces = drawn_faces(
-        scene, all, settings.style == DrawingStyle::ids ? FaceUnit::primitive : FaceUnit::plane);
+    const DrawnFaces faces = drawn_faces(scene, all, unit_of(settings.style), camera);
     ScreenScene screen = screen_scene(all, camera_map, faces.of_facet);
     sort_by_place(screen);
     const WholePieces whole = whole_pieces(screen, progress, cancel);
@@ -265,7 +335,7 @@ DrawnScene draw_scene(
     if (settings.style == DrawingStyle::lines)
         add_strokes({scene, all, faces, screen, whole.pieces, map}, picture, drawn.drawing);
     else
-        add_fills(painted, drawn.drawing);
+        add_fills(painted, cancel, drawn.drawing);
     for (std::size_t i = 0; i < map.rings.size(); ++i)
         drawn.visible_faces += i == 0 || map.rings[i].source != map.rings[i - 1].source ? 1 : 0;
     return drawn;

@@ -13,15 +13,18 @@
 namespace vera {
 
 enum class DrawingStyle : std::uint8_t {
-    flat,  ///< each face in the colour that the light gives its middle
-    ids,   ///< each primitive in the colour of its number, from 1 on; 0 is the background
-    lines, ///< outlines and creases alone
+    flat,   ///< each face in the colour that the light gives its middle
+    shaded, ///< each face in gradients, as the light shades it
+    ids,    ///< each primitive in the colour of its number, from 1 on; 0 is the background
+    lines,  ///< outlines and creases alone
 };
 
 struct DrawSettings {
     DrawingStyle style = DrawingStyle::flat;
     double deviation =
         0.1; ///< how far the plane facets of what is curved may lie off it, in pixels
+    double color_tolerance =
+        1.0 / 255; ///< how far the gradients of style shaded may be off the light, 1 for 255
 };
 
 struct DrawnScene {
