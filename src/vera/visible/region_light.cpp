@@ -92,7 +92,7 @@ SurfacePoint RegionLight::on_facet(const Ray& ray) const {
 /// far. (Newton's method. It converges slowly only where the ray all but misses.)
 SurfacePoint RegionLight::on_body(const Ray& ray) const {
     constexpr int most_steps = 40;
-    constexpr double nearest = 1e-8;
+    constexpr double nearest = 1e-6; // of the reach, and of the last step, which squares it
     const bool enters = shows_outside_ == (convexity_ == Convexity::outwards);
     const double forward = enters ? 1 : -1;
     const double turned = convexity_ == Convexity::outwards ? 1 : -1;
