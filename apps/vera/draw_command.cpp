@@ -41,6 +41,7 @@ struct Request {
     std::string engine = "cells";
     double precision = 0.01;
     double deviation = 0.1;
+    double color_tolerance = 1;
     double page = 0;
     double threads = 0;
     std::vector<std::string> lines;
@@ -79,6 +80,7 @@ DrawingFormat output_format(const Request& request) {
 
 constexpr std::pair<const char*, DrawingStyle> style_of_name[] = {
     {"flat", DrawingStyle::flat},
+    {"shaded", DrawingStyle::shaded},
     {"ids", DrawingStyle::ids},
     {"lines", DrawingStyle::lines},
     {"hidden-lines", DrawingStyle::hidden_lines},
@@ -254,6 +256,8 @@ void draw(const Request& request, const Console& console) {
     settings.shadow_lines = request.shadow_lines;
     settings.engine = request.engine == "sweep" ? VisibilityEngine::sweep : VisibilityEngine::cells;
     settings.deviation = number_of("--deviation", request.deviation, 1e-4, 100);
+    settings.color_tolerance =
+        number_of("--color-tolerance", request.color_tolerance, 0.6, 255) / 255;
     DrawingSettings file_settings;
     file_settings.precision = number_of("--precision", request.precision, 1e-6, 1);
     // What is below all faces keeps the background out: lines need only be as wide as a smoothed
@@ -274,7 +278,8 @@ void draw(const Request& request, const Console& console) {
     OutputFile file(request.output);
     report.read_seconds = watch.lap();
 
-    if (settings.style == DrawingStyle::flat || settings.style == DrawingStyle::toon)
+    if (settings.style == DrawingStyle::flat || settings.style == DrawingStyle::shaded
+        || settings.style == DrawingStyle::toon)
         expose_as_picture(prepared, console);
     if (points > 0)
         settings.check = verification(points, settings.deviation, prepared, console, report);
@@ -343,12 +348,15 @@ void add_draw_command(CLI::App& app, Console& console) {
         ->add_option(
             "--style",
             request->style,
-            "flat: the colours that the light gives, with shadows, without mirrors; ids: each "
+            "flat: the colours that the light gives, with shadows, without mirrors; shaded: the "
+            "same in "
+            "gradients; ids: each "
             "primitive's number as a colour; lines: silhouettes, creases and intersections; "
             "hidden-lines: and what of them lies behind something, dashed; toon: three tones of "
             "each colour, and lines")
-        ->type_name("flat|ids|lines|hidden-lines|toon")
-        ->check(CLI::IsMember({"flat", "ids", "lines", "hidden-lines", "toon"}).description(""))
+        ->type_name("flat|shaded|ids|lines|hidden-lines|toon")
+        ->check(CLI::IsMember({"flat", "shaded", "ids", "lines", "hidden-lines", "toon"})
+                    .description(""))
         ->capture_default_str();
     command
         ->add_option(
@@ -369,6 +377,13 @@ void add_draw_command(CLI::App& app, Console& console) {
             "--deviation",
             request->deviation,
             "how far the facets of curved surfaces may lie off these, in pixels")
+        ->type_name("X")
+        ->capture_default_str();
+    command
+        ->add_option(
+            "--color-tolerance",
+            request->color_tolerance,
+            "how far the gradients of style shaded may be off the light, in steps of 255")
         ->type_name("X")
         ->capture_default_str();
     command

@@ -70,7 +70,7 @@ parts_of_map(const PreparedScene& prepared, const Progress& progress, const Canc
     const CameraMap camera_map(prepared.camera);
     SeenParts seen;
     seen.facets = std::make_unique<const Facets>(facets_of(prepared, camera_map, cancel));
-    DrawnFaces faces = drawn_faces(prepared.scene, *seen.facets, FaceUnit::plane);
+    DrawnFaces faces = drawn_faces(prepared.scene, *seen.facets, FaceUnit::plane, prepared.camera);
     ScreenScene screen = screen_scene(*seen.facets, camera_map, faces.of_facet);
     seen.cut_nearness = screen.cut_nearness;
     sort_by_place(screen);

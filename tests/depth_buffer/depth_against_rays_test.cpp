@@ -36,7 +36,7 @@ Labels labels(const Scene& scene, const Camera& camera, std::size_t width, std::
         return deviation
             * map.size_of_pixel(static_cast<double>(width), static_cast<double>(height), point);
     });
-    const DrawnFaces faces = drawn_faces(scene, all, FaceUnit::primitive);
+    const DrawnFaces faces = drawn_faces(scene, all, FaceUnit::primitive, camera);
     const auto primitive_of = [&](std::uint32_t face) {
         return face == PixelPart::background ? nothing
                                              : all.triangles[faces.first_facet[face]].primitive;

@@ -34,6 +34,19 @@ TEST(WriteEps, SetsTheColorOfALineAfterFillsOfAnother) {
         HasSubstr("f\n% Hidden lines\n50 w 0 J 1 j [300 200] 0 d\n0 0 0 RG\n"));
 }
 
+TEST(WriteEps, DefinesGradientsAsPatternsOfLevelThree) {
+    const std::string text = written(write_eps, drawing_of_gradients());
+    EXPECT_THAT(text, HasSubstr("%%LanguageLevel: 3\n"));
+    EXPECT_THAT(
+        text, HasSubstr("/cs{pop}def/CS{pop}def/scn{load setpattern}def/SCN{scn}def\n%%EndProlog"));
+    EXPECT_THAT(
+        text,
+        HasSubstr("\n/P0 <</PatternType 2/Shading<</ShadingType 2/ColorSpace/DeviceRGB"
+                  "/Coords[0 0 1 0]/Extend[true true]/Function<</FunctionType 2/Domain[0 1]"
+                  "/C0[1 0 0]/C1[0 0 1]/N 1>>>>>>[7.5 0 0 -7.5 .75 21.75]makepattern def\n"));
+    EXPECT_THAT(text, HasSubstr("\n/Pattern cs /P0 scn\n100 100 m\n"));
+}
+
 TEST(WriteEps, IsAWholeFileForAnEmptyDrawing) {
     EXPECT_THAT(
         written(write_eps, {}),

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstddef>
+#include <sstream>
 #include <vector>
 
 #include "drawing/sample_drawing.h"
@@ -39,11 +40,10 @@ std::vector<std::string> objects(const std::string& pdf) {
 }
 
 std::string inflated(const std::string& object) {
-    const std::string before = "<</Length ";
-    EXPECT_EQ(object.substr(0, before.size()), before);
-    const std::size_t length = std::stoul(object.substr(before.size()));
+    const std::string before = "/Length ";
+    const std::size_t length = std::stoul(object.substr(object.find(before) + before.size()));
     const std::size_t start = object.find("\nstream\n") + 8;
-    EXPECT_EQ(object.substr(start + length), "\nendstream");
+    EXPECT_EQ(object.substr(start + length).substr(0, 10), "\nendstream");
 
     std::string bytes(100'000, '\0');
     uLongf size = bytes.size();
@@ -55,6 +55,48 @@ std::string inflated(const std::string& object) {
             length),
         Z_OK);
     return bytes.substr(0, size);
+}
+
+/// The objects of a PDF whose table is a stream.
+std::vector<std::string> objects_by_stream(const std::string& pdf) {
+    const std::size_t start = std::stoul(pdf.substr(pdf.rfind("startxref\n") + 10));
+    const std::string table_object = pdf.substr(start);
+    EXPECT_THAT(table_object, HasSubstr("/Type/XRef/"));
+    EXPECT_THAT(table_object, HasSubstr("/W[1 5 5]"));
+    const std::string table = inflated(table_object);
+    const auto number = [&](std::size_t at, std::size_t bytes) {
+        std::size_t value = 0;
+        for (std::size_t i = 0; i < bytes; ++i)
+            value = value << 8U | static_cast<unsigned char>(table[at + i]);
+        return value;
+    };
+    constexpr std::size_t entry = 11;
+    EXPECT_THAT(table_object, HasSubstr(fmt::format("/Size {}/", table.size() / entry)));
+    const auto object_at = [&](std::size_t offset) { return pdf.substr(offset); };
+    std::vector<std::string> found;
+    for (std::size_t i = 1; i < table.size() / entry; ++i) {
+        const std::size_t first = number(i * entry + 1, 5);
+        if (number(i * entry, 1) == 1) {
+            const std::string begin = fmt::format("{} 0 obj\n", i);
+            EXPECT_EQ(object_at(first).substr(0, begin.size()), begin);
+            const std::size_t end = pdf.find("\nendobj\n", first);
+            found.push_back(pdf.substr(first + begin.size(), end - first - begin.size()));
+            continue;
+        }
+        EXPECT_EQ(number(i * entry, 1), 2U);
+        const std::string holder = object_at(number(first * entry + 1, 5));
+        const std::string text = inflated(holder);
+        const std::size_t texts = std::stoul(holder.substr(holder.find("/First ") + 7));
+        std::istringstream offsets(text.substr(0, texts));
+        std::size_t own = 0;
+        std::size_t offset = 0;
+        for (std::size_t k = 0; k <= number(i * entry + 6, 5); ++k)
+            offsets >> own >> offset;
+        EXPECT_EQ(own, i);
+        found.push_back(
+            text.substr(texts + offset, text.find('\n', texts + offset) - texts - offset));
+    }
+    return found;
 }
 
 TEST(WritePdf, HasATableThatLeadsToEveryObject) {
@@ -135,6 +177,57 @@ S
 EMC
 Q
 )");
+}
+
+TEST(WritePdf, HasShadingsAsPatterns) {
+    const std::vector<std::string> found =
+        objects_by_stream(written(write_pdf, drawing_of_gradients()));
+    ASSERT_EQ(found.size(), 10U);
+    EXPECT_THAT(found[2], HasSubstr("/Pattern<</P0 7 0 R/P1 8 0 R>>"));
+    EXPECT_EQ(inflated(found[3]), R"(q
+.0075 0 0 -.0075 0 22.5 cm
+/OC /L0 BDC
+200 w 0 J 1 j [] 0 d
+/Pattern cs /P0 scn
+100 100 m
+600 100 l
+600 1100 l
+100 1100 l
+h
+f
+/Pattern CS /P0 SCN
+600 100 m
+600 1100 l
+S
+600 100 m
+1100 100 l
+1100 1100 l
+600 1100 l
+h
+f
+/Pattern cs /P1 scn
+500 1500 m
+1500 1500 l
+1500 2500 l
+500 2500 l
+h
+f
+EMC
+Q
+)");
+    EXPECT_EQ(
+        found[6],
+        "<</PatternType 2/Shading<</ShadingType 2/ColorSpace/DeviceRGB/Coords[0 0 1 0]"
+        "/Extend[true true]/Function<</FunctionType 2/Domain[0 1]/C0[1 0 0]/C1[0 0 1]/N 1>>>>"
+        "/Matrix[7.5 0 0 -7.5 .75 21.75]>>");
+    EXPECT_EQ(
+        found[7],
+        "<</PatternType 2/Shading<</ShadingType 3/ColorSpace/DeviceRGB/Coords[0 0 0 0 0 1]"
+        "/Extend[true true]/Function<</FunctionType 3/Domain[0 1]/Functions["
+        "<</FunctionType 2/Domain[0 1]/C0[1 1 1]/C1[1 1 1]/N 1>>"
+        "<</FunctionType 2/Domain[0 1]/C0[1 1 1]/C1[0 1 0]/N 1>>"
+        "<</FunctionType 2/Domain[0 1]/C0[0 1 0]/C1[0 0 0]/N 1>>]"
+        "/Bounds[.25 .5]/Encode[0 1 0 1 0 1]>>>>/Matrix[3 -2.25 -1.125 -1.5 7.5 7.5]>>");
 }
 
 TEST(WritePdf, IsAWholeFileForAnEmptyDrawing) {

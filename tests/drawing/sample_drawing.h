@@ -36,6 +36,31 @@ inline Drawing sample_drawing() {
     return drawing;
 }
 
+/// Two squares of one linear gradient, the first with a seam, and one of a radial one.
+inline Drawing drawing_of_gradients() {
+    Gradient linear;
+    linear.start = {1, 1};
+    linear.axis = {10, 0};
+    linear.stops = {{0, {255, 0, 0}}, {1, {0, 0, 255}}};
+    Gradient radial;
+    radial.shape = Gradient::Shape::radial;
+    radial.start = {10, 20};
+    radial.axis = {4, 3};
+    radial.other_axis = {-1.5, 2};
+    radial.stops = {{0.25, {255, 255, 255}}, {0.5, {0, 255, 0}}, {1, {0, 0, 0}}};
+
+    Drawing drawing;
+    drawing.width = 40;
+    drawing.height = 30;
+    drawing.fills = {
+        {.gradient = linear,
+         .rings = {{{1, 1}, {6, 1}, {6, 11}, {1, 11}}},
+         .seams = {{{6, 1}, {6, 11}}}},
+        {.gradient = linear, .rings = {{{6, 1}, {11, 1}, {11, 11}, {6, 11}}}},
+        {.gradient = radial, .rings = {{{5, 15}, {15, 15}, {15, 25}, {5, 25}}}}};
+    return drawing;
+}
+
 inline std::string written(
     void (*write)(const Drawing&, const DrawingSettings&, std::string&),
     const Drawing& drawing,

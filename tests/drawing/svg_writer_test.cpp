@@ -48,6 +48,45 @@ TEST(WriteSvg, HasLayersGroupsSeamsAndLines) {
 )");
 }
 
+TEST(WriteSvg, DefinesEachGradientOnce) {
+    EXPECT_EQ(
+        written(write_svg, drawing_of_gradients()),
+        std::string(head) + R"svg(width="40" height="30" viewBox="0 0 40 30">
+<style>
+.seam{fill:none;stroke-width:2;stroke-linejoin:round}
+</style>
+<defs>
+<linearGradient id="g1" gradientUnits="userSpaceOnUse" x1="1" y1="1" x2="11" y2="1"><stop offset="0" stop-color="#f00"/><stop offset="1" stop-color="#00f"/></linearGradient>
+<radialGradient id="g2" gradientUnits="userSpaceOnUse" cx="0" cy="0" r="1" gradientTransform="matrix(4 3 -1.5 2 10 20)"><stop offset=".25" stop-color="#fff"/><stop offset=".5" stop-color="#0f0"/><stop offset="1" stop-color="#000"/></radialGradient>
+</defs>
+<g id="fills" inkscape:groupmode="layer" inkscape:label="Fills">
+<path fill="url(#g1)" d="m1 1h5v10h-5z"/>
+<path class="seam" stroke="url(#g1)" d="m6 1v10"/>
+<path fill="url(#g1)" d="m6 1h5v10h-5z"/>
+<path fill="url(#g2)" d="m5 15h10v10h-10z"/>
+</g>
+</svg>
+)svg");
+}
+
+TEST(WriteSvg, GivesGradientsADigitMoreThanOutlines) {
+    Drawing drawing = drawing_of_gradients();
+    drawing.fills[0].gradient->start.x = 1.23456;
+    EXPECT_THAT(written(write_svg, drawing), HasSubstr(R"(x1="1.235" y1="1" x2="11.235" y2="1")"));
+    EXPECT_THAT(
+        written(write_svg, drawing, {.precision = 0.1}),
+        HasSubstr(R"(x1="1.23" y1="1" x2="11.23" y2="1")"));
+}
+
+TEST(WriteSvg, LeavesNoTraceOfAGradientOfWhichNothingIsLeft) {
+    Drawing drawing = drawing_of_gradients();
+    drawing.fills.resize(1);
+    drawing.fills[0].rings = {{{0, 0}, {1, 0}, {0.5, 0.1}}};
+    EXPECT_EQ(
+        written(write_svg, drawing, {.precision = 1}),
+        written(write_svg, {.width = 40, .height = 30}));
+}
+
 TEST(WriteSvg, IsAWholeFileForAnEmptyDrawing) {
     EXPECT_EQ(
         written(write_svg, {}),
@@ -118,6 +157,9 @@ TEST(WriteSvgDeathTest, RefusesNumbersThatAreNotFinite) {
     drawing.fills[0].rings[0][0].x = std::numeric_limits<double>::quiet_NaN();
     EXPECT_DEATH(written(write_svg, drawing), "drawing/snapped_path.cpp");
     EXPECT_DEATH(written(write_svg, {.width = 0}), "drawing.width > 0");
+    Drawing colorless = drawing_of_gradients();
+    colorless.fills[0].gradient->stops.clear();
+    EXPECT_DEATH(written(write_svg, colorless), "stops.empty");
 }
 
 } // namespace

@@ -55,7 +55,7 @@ TEST(DrawingAgainstRays, TheSamePrimitivesAreSeenInRandomScenes) {
         const CameraMap map(camera);
         const Facets all =
             facets(scene, [&](Vec3 point) { return deviation * map.size_of_pixel(1, 1, point); });
-        const DrawnFaces faces = drawn_faces(scene, all, FaceUnit::primitive);
+        const DrawnFaces faces = drawn_faces(scene, all, FaceUnit::primitive, camera);
         ScreenScene screen = screen_scene(all, map, faces.of_facet);
         const double cut = screen.cut_nearness;
         sort_by_place(screen);

@@ -141,7 +141,7 @@ Drawn drawn_scene(int number) {
     const CameraMap map(drawn.camera);
     const Facets all =
         facets(drawn.scene, [&](Vec3 point) { return deviation * map.size_of_pixel(1, 1, point); });
-    const DrawnFaces faces = drawn_faces(drawn.scene, all, FaceUnit::plane);
+    const DrawnFaces faces = drawn_faces(drawn.scene, all, FaceUnit::plane, drawn.camera);
     ScreenScene screen = screen_scene(all, map, faces.of_facet);
     sort_by_place(screen);
     drawn.cut_nearness = screen.cut_nearness;

@@ -242,7 +242,7 @@ TEST(PlaneSweep, SeesLikeTheCellsWholeScenes) {
         camera.upper_left = 5 * up - 5 * across;
         const CameraMap map(camera);
         const Facets all = facets(scene, [](Vec3) { return 0.02; });
-        const DrawnFaces faces = drawn_faces(scene, all, FaceUnit::plane);
+        const DrawnFaces faces = drawn_faces(scene, all, FaceUnit::plane, camera);
         ScreenScene screen = screen_scene(all, map, faces.of_facet);
         sort_by_place(screen);
         ScreenScene again = screen;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/accel/brute_force.h"
-#include "vera/scene/surface.h"
 #include "vera/exact/front_order.h"
+#include "vera/scene/surface.h"
 #include "vera/visible/penetrations.h"
 #include "vera/visible/shadows.h"
 #include "vera/visible/visible_map.h"
@@ -40,7 +40,7 @@ DrawnShadows drawn_shadows(const Scene& scene, const Camera& camera) {
     const CameraMap map(camera);
     DrawnShadows drawn;
     drawn.facets = facets(scene, [](Vec3) { return 1.0; });
-    drawn.faces = drawn_faces(scene, drawn.facets, FaceUnit::plane);
+    drawn.faces = drawn_faces(scene, drawn.facets, FaceUnit::plane, camera);
     drawn.screen = screen_scene(drawn.facets, map, drawn.faces.of_facet);
     const WholePieces whole = whole_pieces(drawn.screen);
     drawn.without = visible_map(drawn.screen, whole.pieces);

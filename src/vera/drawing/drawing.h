@@ -28,9 +28,35 @@ struct DrawingColor {
     friend bool operator==(const DrawingColor&, const DrawingColor&) = default;
 };
 
-/// An area of one colour, of any number of parts and holes. Its rings are closed (the first point
-/// need not be repeated), and holes run against the rings around them, so that the nonzero and the
-/// even-odd rule see the same area.
+/// A colour on the way of a gradient.
+struct GradientStop {
+    double offset = 0; ///< from 0 to 1, never less than that of the stop before it
+    DrawingColor color = {};
+
+    friend bool operator==(const GradientStop&, const GradientStop&) = default;
+};
+
+/// Colours that go over into each other from stop to stop, in proportion to the offset and to the
+/// bytes of sRGB, as SVG and PDF define it; before the first stop its colour holds, behind the last
+/// one that of the last.
+struct Gradient {
+    enum class Shape : std::uint8_t {
+        linear, ///< the offset of a point is its way along the axis, by the axis' length
+        radial  ///< the offset is 0 in the start and 1 on the ellipse of the axes' ends
+    };
+
+    Shape shape = Shape::linear;
+    DrawingPoint start = {};
+    DrawingPoint axis = {1, 0};   ///< from the start; not of length 0
+    DrawingPoint other_axis = {}; ///< of radial ones: the ellipse's other half axis, not along axis
+    std::vector<GradientStop> stops = {}; ///< one or more
+
+    friend bool operator==(const Gradient&, const Gradient&) = default;
+};
+
+/// An area of one colour or gradient, of any number of parts and holes. Its rings are closed (the
+/// first point need not be repeated), and holes run against the rings around them, so that the
+/// nonzero and the even-odd rule see the same area.
 struct FilledOutline {
     std::string id = {};   ///< of the path in an SVG; may be empty
     std::string name = {}; ///< for people: the path's title in an SVG; may be empty
@@ -38,6 +64,7 @@ struct FilledOutline {
     /// has this for its name; outlines whose group is empty stand by themselves.
     std::string group = {};
     DrawingColor color = {};
+    std::optional<Gradient> gradient = {}; ///< in place of the colour
     std::vector<std::vector<DrawingPoint>> rings = {};
     /// The parts of the border beyond which an outline lies that is painted later. Points of the
     /// border, in its order; a part that goes on where the one before it ended is one with it.

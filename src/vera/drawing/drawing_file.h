@@ -63,7 +63,7 @@ void write_svg(const Drawing& drawing, const DrawingSettings& settings, std::str
 /// A PDF 1.7 of one page with the same layers.
 void write_pdf(const Drawing& drawing, const DrawingSettings& settings, std::string& bytes);
 
-/// An Encapsulated PostScript of level 2.
+/// An Encapsulated PostScript of level 2, or of level 3 where there are gradients.
 void write_eps(const Drawing& drawing, const DrawingSettings& settings, std::string& bytes);
 
 /// The lines alone, as an ASCII DXF of AutoCAD 2000 (AC1015) with a layer for each class: y upward

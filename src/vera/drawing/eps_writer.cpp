@@ -13,6 +13,7 @@ using namespace detail;
 void write_eps(const Drawing& drawing, const DrawingSettings& settings, std::string& bytes) {
     const Lattice lattice(settings.precision);
     const Layers content = layers(drawing, settings, lattice);
+    const Gradients gradients(content.fills);
     const PageSize page = page_size(drawing, settings);
     const std::string width = decimal(page.width, 4);
     const std::string height = decimal(page.height, 4);
@@ -28,7 +29,7 @@ void write_eps(const Drawing& drawing, const DrawingSettings& settings, std::str
     if (!drawing.title.empty())
         bytes += "%%Title: " + plain_line(drawing.title) + "\n";
     bytes += fmt::format(
-        "%%LanguageLevel: 2\n"
+        "%%LanguageLevel: {}\n"
         "%%EndComments\n"
         "%%BeginProlog\n"
         "32 dict begin\n"
@@ -40,14 +41,24 @@ void write_eps(const Drawing& drawing, const DrawingSettings& settings, std::str
         "/re{{4 2 roll moveto 1 index 0 rlineto 0 exch rlineto neg 0 rlineto closepath}}def\n"
         "/m{{moveto}}def/l{{lineto}}def/c{{curveto}}def/h{{closepath}}def/f{{fill}}def/"
         "S{{stroke}}def\n"
+        "{}"
         "%%EndProlog\n"
         // Lines along the picture's border may not paint beyond it.
         "gsave\n0 0 {} {} rectclip\n",
+        // Shadings came with level 3.
+        gradients.count() > 0 ? 3 : 2,
+        gradients.count() > 0 ? "/cs{pop}def/CS{pop}def/scn{load setpattern}def/SCN{scn}def\n" : "",
         width,
         height);
+    for (std::size_t i = 0; i < gradients.count(); ++i)
+        bytes += fmt::format(
+            "/P{} <<{}>>{}makepattern def\n",
+            i,
+            shading_pattern(gradients[i]),
+            pattern_matrix(gradients[i], page, drawing.width));
     const LayerMarks marks = {
         [](std::size_t, const std::string& name) { return "% " + plain_line(name) + "\n"; }, ""};
-    bytes += page_content(drawing, settings, lattice, content, marks);
+    bytes += page_content(drawing, settings, lattice, content, gradients, marks);
     bytes += "grestore\nend\n%%EOF\n";
 }
 

@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <iterator>
-#include <optional>
 #include <span>
 #include <utility>
 
@@ -17,8 +16,9 @@ namespace {
 
 class PageWriter {
 public:
-    explicit PageWriter(const Lattice& lattice)
-        : lattice_(lattice) {}
+    PageWriter(const Lattice& lattice, const Gradients& gradients)
+        : lattice_(lattice)
+        , gradients_(gradients) {}
 
     /// From units of the lattice, counted from the top, to points, counted from the bottom.
     void begin_page(PageSize page, double pixels_wide) {
@@ -32,14 +32,26 @@ public:
     void write(const std::string& text) { text_ += text; }
 
     void fill_picture(const Drawing& drawing) {
-        set_color(fill_color_, *drawing.background, "rg");
+        set_paint(fill_paint_, color_paint(*drawing.background, "rg"));
         text_ += fmt::format("0 0 {} {} re\nf\n", length(drawing.width), length(drawing.height));
     }
 
-    void fill(std::span<const SnappedPath> rings, DrawingColor color) {
-        set_color(fill_color_, color, "rg");
+    void fill(std::span<const SnappedPath> rings, const FilledOutline& outline) {
+        set_paint(
+            fill_paint_,
+            outline.gradient ? gradient_paint(*outline.gradient, "cs", "scn")
+                             : color_paint(outline.color, "rg"));
         write_paths(rings);
         text_ += "f\n";
+    }
+
+    void stroke_seams(std::span<const SnappedPath> seams, const FilledOutline& outline) {
+        set_paint(
+            stroke_paint_,
+            outline.gradient ? gradient_paint(*outline.gradient, "CS", "SCN")
+                             : color_paint(outline.color, "RG"));
+        write_paths(seams);
+        text_ += "S\n";
     }
 
     /// A line style that stays until the next one.
@@ -51,7 +63,7 @@ public:
     }
 
     void stroke(std::span<const SnappedPath> lines, DrawingColor color) {
-        set_color(stroke_color_, color, "RG");
+        set_paint(stroke_paint_, color_paint(color, "RG"));
         write_paths(lines);
         text_ += "S\n";
     }
@@ -59,18 +71,27 @@ public:
     std::string take() { return std::move(text_); }
 
 private:
-    /// PDF has a color to fill and one to stroke with; PostScript has only the one set last.
-    void
-    set_color(std::optional<DrawingColor>& purpose, DrawingColor color, const char* operation) {
-        if (purpose != color || last_color_ != color)
-            text_ += components(color) + " " + operation + "\n";
-        purpose = last_color_ = color;
+    /// What is painted with, for a purpose: what tells it from others, and what sets it.
+    struct Paint {
+        std::string what;
+        std::string operators;
+    };
+
+    static Paint color_paint(DrawingColor color, const char* operation) {
+        const std::string numbers = components(color);
+        return {numbers, numbers + " " + operation + "\n"};
     }
 
-    static std::string components(DrawingColor color) {
-        // Three digits tell 256 values apart.
-        const auto component = [](std::uint8_t value) { return decimal(value / 255.0, 3); };
-        return component(color.r) + " " + component(color.g) + " " + component(color.b);
+    Paint gradient_paint(const Gradient& gradient, const char* space, const char* operation) const {
+        const std::string pattern = fmt::format("/P{}", gradients_.number_of(gradient));
+        return {pattern, fmt::format("/Pattern {} {} {}\n", space, pattern, operation)};
+    }
+
+    /// PDF has a paint to fill and one to stroke with; PostScript has only the one set last.
+    void set_paint(std::string& purpose, const Paint& paint) {
+        if (purpose != paint.what || last_paint_ != paint.what)
+            text_ += paint.operators;
+        purpose = last_paint_ = paint.what;
     }
 
     void write_paths(std::span<const SnappedPath> paths) {
@@ -113,10 +134,12 @@ private:
     }
 
     const Lattice& lattice_;
+    const Gradients& gradients_;
     std::string text_;
-    std::optional<DrawingColor> fill_color_;
-    std::optional<DrawingColor> stroke_color_;
-    std::optional<DrawingColor> last_color_; ///< of the two
+    // What they are set to, in the words of Paint; empty before they are.
+    std::string fill_paint_;
+    std::string stroke_paint_;
+    std::string last_paint_; ///< of the two
 };
 
 } // namespace
@@ -135,13 +158,14 @@ std::string page_content(
     const DrawingSettings& settings,
     const Lattice& lattice,
     const Layers& layers,
+    const Gradients& gradients,
     const LayerMarks& marks) {
     constexpr int butt_cap = 0;
     constexpr int round_cap = 1;
     const std::vector<std::string> names = layer_names(layers);
     std::size_t number = 0;
 
-    PageWriter page(lattice);
+    PageWriter page(lattice, gradients);
     page.begin_page(page_size(drawing, settings), drawing.width);
     if (drawing.background)
         page.fill_picture(drawing);
@@ -150,9 +174,9 @@ std::string page_content(
         ++number;
         page.set_pen(settings.seam_width, butt_cap, {});
         for (const FilledPath& fill : layers.fills) {
-            page.fill(fill.rings, fill.outline->color);
+            page.fill(fill.rings, *fill.outline);
             if (!fill.seams.empty())
-                page.stroke(fill.seams, fill.outline->color);
+                page.stroke_seams(fill.seams, *fill.outline);
         }
         page.write(marks.end);
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "vera/drawing/layers.h"
+#include "vera/drawing/paints.h"
 
 #include <cstddef>
 #include <functional>
@@ -18,13 +19,15 @@ struct LayerMarks {
 /// The layers' names in their order.
 std::vector<std::string> layer_names(const Layers& layers);
 
-/// The drawing in the operators of a PDF page, which an EPS defines for itself (q cm rg RG w J j d
-/// re m l c h f S Q). Coordinates are whole numbers, in units of the lattice.
+/// The drawing in the operators of a PDF page, which an EPS defines for itself (q cm rg RG cs scn
+/// CS SCN w J j d re m l c h f S Q). Coordinates are whole numbers, in units of the lattice.
+/// Gradient number i is the pattern /Pi.
 std::string page_content(
     const Drawing& drawing,
     const DrawingSettings& settings,
     const Lattice& lattice,
     const Layers& layers,
+    const Gradients& gradients,
     const LayerMarks& marks);
 
 } // namespace vera::detail

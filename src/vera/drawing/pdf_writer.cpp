@@ -5,7 +5,9 @@
 
 #include <cstdint>
 #include <stdexcept>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 #include <zlib.h>
@@ -42,7 +44,16 @@ std::string digest(std::string_view bytes) {
     return fmt::format("{:016X}{:016X}", scrambled_bits(first), second);
 }
 
-/// Objects one after the other, numbered from 1, and the table of where they begin.
+std::string stream_object(const std::string& entries, const std::string& bytes) {
+    const std::string packed = deflated(bytes);
+    return fmt::format(
+        "<<{}/Length {}/Filter/FlateDecode>>\nstream\n{}\nendstream",
+        entries,
+        packed.size(),
+        packed);
+}
+
+/// Objects one after the other, numbered from 1, and the table of where they are.
 class PdfObjects {
 public:
     explicit PdfObjects(std::string& bytes)
@@ -53,30 +64,76 @@ public:
     }
 
     void add(std::string_view object) {
-        offsets_.push_back(bytes_.size() - start_);
-        bytes_ += fmt::format("{} 0 obj\n{}\nendobj\n", offsets_.size(), object);
+        places_.push_back({bytes_.size() - start_, false});
+        bytes_ += fmt::format("{} 0 obj\n{}\nendobj\n", places_.size(), object);
+    }
+
+    /// Small objects, which are not streams, packed together as one more object behind them.
+    void add_packed(const std::vector<std::string>& objects) {
+        std::string offsets;
+        std::string text;
+        for (std::size_t i = 0; i < objects.size(); ++i) {
+            places_.push_back({i, true});
+            offsets += fmt::format("{} {} ", places_.size(), text.size());
+            text += objects[i] + "\n";
+        }
+        packed_in_ = places_.size() + 1;
+        add(stream_object(
+            fmt::format("/Type/ObjStm/N {}/First {}", objects.size(), offsets.size()),
+            offsets + text));
     }
 
     void finish(std::size_t catalog, std::size_t information) {
         const std::string id = digest(std::string_view(bytes_).substr(start_));
         const std::size_t table = bytes_.size() - start_;
-        bytes_ += fmt::format("xref\n0 {}\n0000000000 65535 f \n", offsets_.size() + 1);
-        for (const std::size_t offset : offsets_)
-            bytes_ += fmt::format("{:010} 00000 n \n", offset);
-        bytes_ += fmt::format(
-            "trailer\n<</Size {}/Root {} 0 R/Info {} 0 R/ID[<{}><{}>]>>\nstartxref\n{}\n%%EOF\n",
-            offsets_.size() + 1,
-            catalog,
-            information,
-            id,
-            id,
-            table);
+        const std::string ends =
+            fmt::format("/Root {} 0 R/Info {} 0 R/ID[<{}><{}>]", catalog, information, id, id);
+        if (packed_in_ > 0)
+            write_table_stream(ends);
+        else
+            write_table(ends);
+        bytes_ += fmt::format("startxref\n{}\n%%EOF\n", table);
     }
 
 private:
+    struct Place {
+        std::size_t at = 0; ///< in the file, or the object's number among those packed together
+        bool is_packed = false;
+    };
+
+    void write_table(const std::string& ends) {
+        bytes_ += fmt::format("xref\n0 {}\n0000000000 65535 f \n", places_.size() + 1);
+        for (const Place& place : places_)
+            bytes_ += fmt::format("{:010} 00000 n \n", place.at);
+        bytes_ += fmt::format("trailer\n<</Size {}{}>>\n", places_.size() + 1, ends);
+    }
+
+    /// The table as a stream, which alone can tell of packed objects: an entry is its kind in a
+    /// byte, and two numbers of 5 bytes.
+    void write_table_stream(const std::string& ends) {
+        std::string table;
+        const auto add_number = [&](std::size_t number, int bytes) {
+            for (int i = bytes - 1; i >= 0; --i)
+                table += static_cast<char>(number >> (8 * i) & 0xffU);
+        };
+        const auto add_entry = [&](std::size_t kind, std::size_t first, std::size_t second) {
+            add_number(kind, 1);
+            add_number(first, 5);
+            add_number(second, 5);
+        };
+        add_entry(0, 0, 65535);
+        const std::size_t own = bytes_.size() - start_;
+        for (const Place& place : places_)
+            place.is_packed ? add_entry(2, packed_in_, place.at) : add_entry(1, place.at, 0);
+        add_entry(1, own, 0);
+        const std::size_t count = places_.size() + 2;
+        add(stream_object(fmt::format("/Type/XRef/Size {}/W[1 5 5]{}", count, ends), table));
+    }
+
     std::string& bytes_;
     std::size_t start_;
-    std::vector<std::size_t> offsets_;
+    std::vector<Place> places_;
+    std::size_t packed_in_ = 0; ///< the object that holds the packed ones; 0: there are none
 };
 
 } // namespace
@@ -86,6 +143,7 @@ void write_pdf(const Drawing& drawing, const DrawingSettings& settings, std::str
 
     const Lattice lattice(settings.precision);
     const Layers drawn = layers(drawing, settings, lattice);
+    const Gradients gradients(drawn.fills);
     const std::vector<std::string> names = layer_names(drawn);
     const PageSize size = page_size(drawing, settings);
 
@@ -100,24 +158,31 @@ void write_pdf(const Drawing& drawing, const DrawingSettings& settings, std::str
         layer_list =
             fmt::format("/OCProperties<</OCGs[{0}]/D<</Order[{0}]/ON[{0}]>>>>", references);
 
+    const std::size_t first_pattern = first_layer + names.size();
+    std::string patterns;
+    for (std::size_t i = 0; i < gradients.count(); ++i)
+        patterns += fmt::format("/P{} {} 0 R", i, first_pattern + i);
+    if (!patterns.empty())
+        patterns = "/Pattern<<" + patterns + ">>";
+
     const LayerMarks marks = {
         [](std::size_t layer, const std::string&) { return fmt::format("/OC /L{} BDC\n", layer); },
         "EMC\n"};
-    const std::string packed = deflated(page_content(drawing, settings, lattice, drawn, marks));
+    const std::string text = page_content(drawing, settings, lattice, drawn, gradients, marks);
 
     PdfObjects objects(bytes);
     objects.add(fmt::format("<</Type/Catalog/Pages {} 0 R{}>>", +pages, layer_list));
     objects.add(fmt::format("<</Type/Pages/Kids[{} 0 R]/Count 1>>", +page));
     objects.add(fmt::format(
-        "<</Type/Page/Parent {} 0 R/MediaBox[0 0 {} {}]/Resources<</Properties<<{}>>>>"
+        "<</Type/Page/Parent {} 0 R/MediaBox[0 0 {} {}]/Resources<</Properties<<{}>>{}>>"
         "/Contents {} 0 R>>",
         +pages,
         decimal(size.width, 4),
         decimal(size.height, 4),
         resources,
+        patterns,
         +content));
-    objects.add(fmt::format(
-        "<</Length {}/Filter/FlateDecode>>\nstream\n{}\nendstream", packed.size(), packed));
+    objects.add(stream_object("", text));
     std::string texts = "/Producer(VERA)";
     if (!drawing.title.empty())
         texts += "/Title" + pdf_string(drawing.title);
@@ -126,6 +191,14 @@ void write_pdf(const Drawing& drawing, const DrawingSettings& settings, std::str
     objects.add("<<" + texts + ">>");
     for (const std::string& name : names)
         objects.add(fmt::format("<</Type/OCG/Name{}>>", pdf_string(name)));
+    std::vector<std::string> packed;
+    for (std::size_t i = 0; i < gradients.count(); ++i)
+        packed.push_back(fmt::format(
+            "<<{}/Matrix{}>>",
+            shading_pattern(gradients[i]),
+            pattern_matrix(gradients[i], size, drawing.width)));
+    if (!packed.empty())
+        objects.add_packed(packed);
     objects.finish(catalog, information);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/drawing/document_text.h"
 #include "vera/drawing/layers.h"
+#include "vera/drawing/paints.h"
 
 #include <cstddef>
 #include <span>
@@ -31,6 +32,7 @@ public:
         , settings_(settings)
         , lattice_(settings.precision)
         , layers_(layers(drawing, settings, lattice_))
+        , gradients_(layers_.fills)
         , text_(text) {
         // Before the outlines take theirs, so that a layer's id is always the same.
         if (drawing.background)
@@ -39,11 +41,14 @@ public:
             fills_id_ = ids_.take("fills");
         for (const LineLayer& layer : layers_.lines)
             line_ids_.push_back(ids_.take(std::string(name_of(layer.style.line_class)) + "-lines"));
+        for (std::size_t i = 0; i < gradients_.count(); ++i)
+            gradient_ids_.push_back(ids_.take(fmt::format("g{}", i + 1)));
     }
 
     void write() {
         write_head();
         write_style();
+        write_gradients();
         if (drawing_.background)
             text_ += fmt::format(
                 "<rect id=\"{}\" width=\"{}\" height=\"{}\" fill=\"{}\"/>\n",
@@ -117,6 +122,57 @@ private:
             dashes);
     }
 
+    void write_gradients() {
+        if (gradients_.count() == 0)
+            return;
+        text_ += "<defs>\n";
+        for (std::size_t i = 0; i < gradients_.count(); ++i)
+            write_gradient(gradients_[i], gradient_ids_[i]);
+        text_ += "</defs>\n";
+    }
+
+    void write_gradient(const Gradient& gradient, const std::string& id) {
+        const bool linear = gradient.shape == Gradient::Shape::linear;
+        const char* element = linear ? "linearGradient" : "radialGradient";
+        text_ += fmt::format(
+            R"(<{} id="{}" gradientUnits="userSpaceOnUse" {}>)",
+            element,
+            id,
+            linear ? line_of(gradient) : circle_of(gradient));
+        for (const GradientStop& stop : gradient.stops)
+            text_ += fmt::format(
+                R"(<stop offset="{}" stop-color="{}"/>)",
+                length(stop.offset),
+                css_color(stop.color));
+        text_ += fmt::format("</{}>\n", element);
+    }
+
+    /// A digit more than those of outlines: colours may change fast along a short axis.
+    std::string gradient_length(double value) const {
+        return decimal(value, lattice_.digits() + 1);
+    }
+
+    std::string line_of(const Gradient& gradient) const {
+        return fmt::format(
+            R"(x1="{}" y1="{}" x2="{}" y2="{}")",
+            gradient_length(gradient.start.x),
+            gradient_length(gradient.start.y),
+            gradient_length(gradient.start.x + gradient.axis.x),
+            gradient_length(gradient.start.y + gradient.axis.y));
+    }
+
+    /// The circle of radius 1 about (0, 0), turned into the ellipse.
+    std::string circle_of(const Gradient& gradient) const {
+        return fmt::format(
+            "cx=\"0\" cy=\"0\" r=\"1\" gradientTransform=\"matrix({} {} {} {} {} {})\"",
+            gradient_length(gradient.axis.x),
+            gradient_length(gradient.axis.y),
+            gradient_length(gradient.other_axis.x),
+            gradient_length(gradient.other_axis.y),
+            gradient_length(gradient.start.x),
+            gradient_length(gradient.start.y));
+    }
+
     void write_fills() {
         text_ += fmt::format(
             "<g id=\"{}\" inkscape:groupmode=\"layer\" inkscape:label=\"{}\">\n",
@@ -149,17 +205,19 @@ private:
 
     void write_fill(const FilledPath& fill) {
         const FilledOutline& outline = *fill.outline;
-        const std::string color = css_color(outline.color);
+        const std::string paint = outline.gradient
+            ? fmt::format("url(#{})", gradient_ids_[gradients_.number_of(*outline.gradient)])
+            : css_color(outline.color);
         text_ += "<path";
         if (!outline.id.empty())
             text_ += fmt::format(R"( id="{}")", ids_.take(outline.id));
-        text_ += fmt::format(R"( fill="{}" d="{}")", color, path_data(fill.rings));
+        text_ += fmt::format(R"( fill="{}" d="{}")", paint, path_data(fill.rings));
         text_ += outline.name.empty()
             ? "/>\n"
             : fmt::format("><title>{}</title></path>\n", xml_text(outline.name));
         if (!fill.seams.empty())
             text_ += fmt::format(
-                "<path class=\"seam\" stroke=\"{}\" d=\"{}\"/>\n", color, path_data(fill.seams));
+                "<path class=\"seam\" stroke=\"{}\" d=\"{}\"/>\n", paint, path_data(fill.seams));
     }
 
     void write_lines(const LineLayer& layer, const std::string& id) {
@@ -181,11 +239,13 @@ private:
     const DrawingSettings& settings_;
     Lattice lattice_;
     Layers layers_;
+    Gradients gradients_;
     std::string& text_;
     UniqueIds ids_;
     std::string background_id_;
     std::string fills_id_;
     std::vector<std::string> line_ids_; ///< of the layers of lines, which are their classes too
+    std::vector<std::string> gradient_ids_;
 };
 
 } // namespace

@@ -417,8 +417,8 @@ std::vector<double> nearness_of_edges(const Raster& raster) {
     return nearness;
 }
 
-/// Whether the edge parts two parts of one shadow: beside it the same is seen. (Where several are on
-/// a side, it is followed like any other.)
+/// Whether the edge parts two parts of one shadow: beside it the same is seen. (Where several are
+/// on a side, it is followed like any other.)
 bool is_inner(const ScreenScene& scene, const EdgeNeighbours& beside) {
     if (!beside.are_two())
         return false;

@@ -124,11 +124,11 @@ inline double hidden_margin(const NearnessSlope& slope) {
     return sure_margin(slope) + 0x1p-26 * slope.per_step();
 }
 
-/// How near the plane is at the nearest of the points, as it may be compared with what blocks a cell.
-/// Asked of the plane: a corner that was moved to the grid may be off it.
+/// How near the plane is at the nearest of the points, as it may be compared with what blocks a
+/// cell. Asked of the plane: a corner that was moved to the grid may be off it.
 template <std::size_t count>
-double nearest_for_hiding(
-    const NearnessSlope& slope, const std::array<ScreenPoint, count>& points) {
+double
+nearest_for_hiding(const NearnessSlope& slope, const std::array<ScreenPoint, count>& points) {
     double nearest = -std::numeric_limits<double>::infinity();
     for (const ScreenPoint point : points)
         nearest = std::max(

@@ -11,6 +11,8 @@
 #include "vera/visible/outline_strokes.h"
 #include "vera/visible/penetrations.h"
 #include "vera/visible/projection.h"
+#include "vera/visible/seam_strips.h"
+#include "vera/visible/shaded_outlines.h"
 #include "vera/visible/shadows.h"
 #include "vera/visible/tones.h"
 #include "vera/visible/visible_map.h"
@@ -64,7 +66,7 @@ DrawingPoint drawn_point(const Painted& painted, std::uint32_t vertex) {
 /// What the face gives back towards the viewer at the point of its plane that is seen in the middle
 /// of the ring, without mirrors.
 Color light_of_face(const Painted& painted, std::uint32_t face, const VisibleMap::Ring& ring) {
-    const LightSet shadowed = painted.map.regions[ring.region].unlit;
+    const LightSet lights = ~painted.map.regions[ring.region].unlit;
     const Facets::Triangle& facet = painted.facets.triangles[painted.faces.first_facet[face]];
     const Vec3 a = painted.facets.corners[facet.corners[0]];
     const Vec3 normal = normalized(cross(
@@ -87,7 +89,7 @@ Color light_of_face(const Painted& painted, std::uint32_t face, const VisibleMap
     const Incidence at = incidence(surface, ray.direction);
     LocalTerms terms = unlit(at, material, painted.picture.ambient);
     for (std::size_t i = 0; i < painted.scene.lights.size(); ++i)
-        if (i >= most_lights_of_a_set || (shadowed >> i & 1U) == 0)
+        if (contains(lights, i))
             terms += unshadowed(at, material, painted.scene.lights[i]);
     return sum(terms);
 }
@@ -243,6 +245,40 @@ void add_underlays(const Painted& painted, const RegionRings& all, Drawing& draw
         std::make_move_iterator(underlays.end()));
 }
 
+/// The same for areas that change their colours from place to place: a face goes on below those
+/// beside it only close to their common border, whatever their size.
+void cover_seams_closely(
+    const Painted& painted,
+    const RegionRings& all,
+    std::span<const VisibleMap::Ring> own,
+    FilledOutline& outline) {
+    constexpr std::size_t most_corners = 1024; // of a neighbour: else strips take too long
+    const std::size_t own_rings = outline.rings.size();
+    for (std::size_t i = 0; i < own_rings; ++i) {
+        std::vector<DrawingPoint> points = outline.rings[i];
+        points.push_back(points.front());
+        const auto across = [&](std::size_t side) {
+            return painted.map.ring_across[own[i].first + side];
+        };
+        for (std::size_t side = 0, end = 0; side + 1 < points.size(); side = end) {
+            for (end = side + 1; end + 1 < points.size() && across(end) == across(side);)
+                ++end;
+            if (across(side) == no_region || across(side) <= own[i].region)
+                continue;
+            const std::span border = std::span(points).subspan(side, end - side + 1);
+            const auto others = all[across(side)];
+            if (vertex_count(others) > most_corners) {
+                outline.seams.emplace_back(border.begin(), border.end());
+                continue;
+            }
+            FilledOutline neighbour;
+            add_rings(painted, others, neighbour);
+            std::ranges::move(
+                seam_strips(border, neighbour.rings), std::back_inserter(outline.rings));
+        }
+    }
+}
+
 DrawingColor
 color_of(const Painted& painted, std::uint32_t face, std::span<const VisibleMap::Ring> rings) {
     const Facets::Triangle& facet = painted.facets.triangles[painted.faces.first_facet[face]];
@@ -259,12 +295,31 @@ color_of(const Painted& painted, std::uint32_t face, std::span<const VisibleMap:
             : light);
 }
 
-void add_fills(const Painted& painted, Drawing& drawing) {
-    const RegionRings all(painted.map);
+/// The firmament and, on it, the outlines as the light shades them.
+void add_shaded(
+    const Painted& painted,
+    std::vector<LitOutline> lit,
+    const CancelFlag* cancel,
+    Drawing& drawing) {
+    const PaintTolerance tolerance = {painted.settings.color_tolerance, painted.settings.deviation};
+    DrawnFirmament firmament = drawn_firmament(painted.camera, painted.picture, tolerance);
+    drawing.background = firmament.background;
+    drawing.fills = std::move(firmament.sky);
+    std::ranges::move(
+        shaded_outlines(
+            std::move(lit),
+            {painted.scene, painted.camera, painted.picture, painted.facets, tolerance, cancel}),
+        std::back_inserter(drawing.fills));
+}
+
+void add_fills(const Painted& painted, const CancelFlag* cancel, Drawing& drawing) {
+    const bool is_shaded = painted.settings.style == DrawingStyle::shaded;
     // Numbers are to be compared, not looked at: the colour says all, and the file stays small.
     const bool is_looked_at = painted.settings.style != DrawingStyle::ids;
+    const RegionRings all(painted.map);
     const std::vector<bool> is_covering_whole =
-        is_looked_at ? covering_whole(painted, all) : std::vector<bool>();
+        is_looked_at && !is_shaded ? covering_whole(painted, all) : std::vector<bool>();
+    std::vector<LitOutline> lit;
     std::uint64_t grouped = 0;
     std::string group;
     for (std::size_t number = 0; number < all.count(); ++number) {
@@ -273,7 +328,8 @@ void add_fills(const Painted& painted, Drawing& drawing) {
         const std::uint32_t facet = painted.faces.first_facet[face];
         const std::uint64_t primitive = painted.facets.triangles[facet].primitive;
         FilledOutline outline;
-        outline.color = color_of(painted, face, own);
+        if (!is_shaded)
+            outline.color = color_of(painted, face, own);
         if (is_looked_at) {
             if (group.empty() || primitive != grouped)
                 group = group_name(painted.scene, primitive);
@@ -282,11 +338,19 @@ void add_fills(const Painted& painted, Drawing& drawing) {
             outline.group = group;
         }
         add_rings(painted, own, outline);
-        if (is_looked_at)
+        if (is_shaded)
+            cover_seams_closely(painted, all, own, outline);
+        else if (is_looked_at)
             cover_seams(painted, all, is_covering_whole, own, outline);
-        drawing.fills.push_back(std::move(outline));
+        if (is_shaded)
+            lit.push_back(
+                {std::move(outline), own.size(), facet, ~painted.map.regions[number].unlit});
+        else
+            drawing.fills.push_back(std::move(outline));
     }
-    if (is_looked_at)
+    if (is_shaded)
+        add_shaded(painted, std::move(lit), cancel, drawing);
+    else if (is_looked_at)
         add_underlays(painted, all, drawing);
 }
 
@@ -298,6 +362,7 @@ std::optional<DrawingColor> background(const Painted& painted) {
     case DrawingStyle::toon:
         return as_drawn(firmament_color(
             painted.picture.firmament, view_ray(painted.camera, 0.5, 0.5).direction));
+    case DrawingStyle::shaded: // painted with its outlines
     case DrawingStyle::lines:
     case DrawingStyle::hidden_lines:
         break;
@@ -322,6 +387,19 @@ std::vector<std::uint64_t> primitives_of(const Facets& facets, const DrawnFaces&
     return primitives;
 }
 
+/// Makes the larger faces the sources, and leaves out the pieces that parted one of them.
+void join_sources(
+    ScreenScene& screen, VisiblePieces& pieces, const DrawnFaces& before, const DrawnFaces& after) {
+    for (ScreenTriangle& triangle : screen.triangles)
+        triangle.source = after.of_facet[before.first_facet[triangle.source]];
+    const auto source = [&](std::uint32_t triangle) {
+        return triangle == no_triangle ? no_source : screen.triangles[triangle].source;
+    };
+    std::erase_if(pieces.pieces, [&](const VisiblePiece& piece) {
+        return source(piece.left) == source(piece.right) && piece.left_unlit == piece.right_unlit;
+    });
+}
+
 } // namespace
 
 DrawnScene draw_scene(
@@ -338,8 +416,12 @@ DrawnScene draw_scene(
     const Facets all = facets(scene, deviation, cancel);
     if (settings.style == DrawingStyle::ids)
         check_numbers(all);
-    const DrawnFaces faces = drawn_faces(
-        scene, all, settings.style == DrawingStyle::ids ? FaceUnit::primitive : FaceUnit::plane);
+    // Shadows fall on plane faces; these become larger ones after.
+    DrawnFaces faces = drawn_faces(
+        scene,
+        all,
+        settings.style == DrawingStyle::ids ? FaceUnit::primitive : FaceUnit::plane,
+        camera);
     ScreenScene screen = screen_scene(all, camera_map, faces.of_facet);
     sort_by_place(screen);
     DrawnScene drawn;
@@ -348,8 +430,8 @@ DrawnScene draw_scene(
     const bool has_shadows = settings.shadow_lines
         || (picture.shadows && has_fills(settings.style) && settings.style != DrawingStyle::ids);
     const std::size_t steps = has_shadows ? 3 : 1;
-    WholePieces whole = whole_pieces(
-        screen, progress_part(progress, 0, steps), cancel, settings.engine);
+    WholePieces whole =
+        whole_pieces(screen, progress_part(progress, 0, steps), cancel, settings.engine);
     drawn.cut_rounds = static_cast<std::size_t>(whole.rounds - 1);
     drawn.penetrating = whole.left;
     if (has_shadows) {
@@ -368,6 +450,11 @@ DrawnScene draw_scene(
         whole.pieces = cell_raster_after(
             change, std::move(whole.pieces), screen, progress_part(progress, 2, steps), cancel);
     }
+    if (settings.style == DrawingStyle::shaded) {
+        DrawnFaces smooth = drawn_faces(scene, all, FaceUnit::smooth, camera);
+        join_sources(screen, whole.pieces, faces, smooth);
+        faces = std::move(smooth);
+    }
     const VisibleMap map = visible_map(screen, whole.pieces);
     if (settings.check)
         settings.check({map, primitives_of(all, faces), screen.cut_nearness});
@@ -377,7 +464,7 @@ DrawnScene draw_scene(
     drawn.drawing.height = picture.height;
     drawn.drawing.background = background(painted);
     if (has_fills(settings.style))
-        add_fills(painted, drawn.drawing);
+        add_fills(painted, cancel, drawn.drawing);
     if (has_lines(settings.style))
         add_strokes(
             {scene,

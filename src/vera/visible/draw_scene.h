@@ -6,8 +6,8 @@
 #include "vera/scene/camera.h"
 #include "vera/scene/picture_settings.h"
 #include "vera/scene/scene.h"
-#include "vera/visible/shadows.h"
 #include "vera/visible/map_check.h"
+#include "vera/visible/shadows.h"
 #include "vera/visible/visibility_engine.h"
 
 #include <cstddef>
@@ -18,6 +18,7 @@ namespace vera {
 
 enum class DrawingStyle : std::uint8_t {
     flat,         ///< each face, and what is in shadow of it, in the light of its middle
+    shaded,       ///< the same in gradients, as the light shades it
     ids,          ///< each primitive in the colour of its number, from 1 on; 0 is the background
     lines,        ///< what is seen of silhouettes, creases and intersections, alone
     hidden_lines, ///< and what is not seen of silhouettes and creases
@@ -40,6 +41,8 @@ struct DrawSettings {
     /// Called, where there is one, with the map before anything is painted; may throw.
     std::function<void(const PrimitiveMap& map)> check;
     VisibilityEngine engine = VisibilityEngine::cells; ///< the drawing is the same
+    double color_tolerance =
+        1.0 / 255; ///< how far the gradients of style shaded may be off the light, 1 for 255
 };
 
 struct DrawnScene {

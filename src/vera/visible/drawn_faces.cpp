@@ -2,7 +2,9 @@
 #include "vera/visible/drawn_faces.h"
 
 #include "vera/scene/surface.h"
+#include "vera/visible/convex_piece.h"
 
+#include <array>
 #include <cstddef>
 
 namespace vera {
@@ -31,23 +33,53 @@ bool is_plane(const PrimitivePath& path, std::uint32_t piece) {
     return false;
 }
 
+/// How the facets of a piece make faces.
+enum class Parts : std::uint8_t { one, each, by_side };
+
+Parts parts_of(const Scene& scene, const Facets::Triangle& facet, FaceUnit unit) {
+    if (unit == FaceUnit::primitive)
+        return Parts::one;
+    const PrimitivePath path = path_to(scene, facet.primitive);
+    if (is_plane(path, facet.piece))
+        return Parts::one;
+    const bool sides = unit == FaceUnit::smooth && convexity(path, facet.piece) != Convexity::none;
+    return sides ? Parts::by_side : Parts::each;
+}
+
+bool shows_outside(const Facets& facets, const Facets::Triangle& facet, const Camera& camera) {
+    const Vec3 a = facets.corners[facet.corners[0]];
+    const Vec3 ray =
+        camera.projection == Camera::Projection::parallel ? camera.direction : a - camera.viewpoint;
+    const Vec3 normal =
+        cross(facets.corners[facet.corners[1]] - a, facets.corners[facet.corners[2]] - a);
+    return dot(normal, ray) < 0;
+}
+
 } // namespace
 
-DrawnFaces drawn_faces(const Scene& scene, const Facets& facets, FaceUnit unit) {
+DrawnFaces
+drawn_faces(const Scene& scene, const Facets& facets, FaceUnit unit, const Camera& camera) {
+    constexpr std::uint32_t none = 0xffffffff;
     DrawnFaces faces;
     faces.of_facet.reserve(facets.triangles.size());
-    bool in_one_piece = true;
+    Parts parts = Parts::one;
+    std::array<std::uint32_t, 2> open = {none, none}; // that further facets of the piece belong to
     for (std::size_t i = 0; i < facets.triangles.size(); ++i) {
         const Facets::Triangle& facet = facets.triangles[i];
         const bool next_primitive = i == 0 || facet.primitive != facets.triangles[i - 1].primitive;
         const bool next_piece = next_primitive || facet.piece != facets.triangles[i - 1].piece;
-        if (next_piece && unit == FaceUnit::plane)
-            in_one_piece = is_plane(path_to(scene, facet.primitive), facet.piece);
-        const bool begins =
-            next_primitive || (unit == FaceUnit::plane && (next_piece || !in_one_piece));
-        if (begins)
+        const bool next_unit = unit == FaceUnit::primitive ? next_primitive : next_piece;
+        if (next_unit)
+            parts = parts_of(scene, facet, unit);
+        if (next_unit || parts == Parts::each)
+            open = {none, none};
+        const bool other_side = parts == Parts::by_side && !shows_outside(facets, facet, camera);
+        std::uint32_t& face = open[other_side ? 1 : 0];
+        if (face == none) {
+            face = static_cast<std::uint32_t>(faces.first_facet.size());
             faces.first_facet.push_back(static_cast<std::uint32_t>(i));
-        faces.of_facet.push_back(static_cast<std::uint32_t>(faces.first_facet.size() - 1));
+        }
+        faces.of_facet.push_back(face);
     }
     return faces;
 }

@@ -38,8 +38,7 @@ struct EdgeNeighbours {
 };
 
 /// Of each edge.
-std::vector<EdgeNeighbours>
-edge_neighbours(const ScreenScene& scene, const ScreenEdges& edges);
+std::vector<EdgeNeighbours> edge_neighbours(const ScreenScene& scene, const ScreenEdges& edges);
 
 /// The surfaces that have each edge.
 struct EdgeTriangles {

@@ -264,9 +264,8 @@ void add_strokes(const StrokeSources& sources, const ExtraLines& extra, Drawing&
         sources.scene, sources.camera, sources.facets, sources.faces, sources.screen);
     LineParts lines = {visible_parts(sources, rules), sources.map.vertices};
     if (!extra.shadows)
-        std::erase_if(lines.parts, [](const LinePart& part) {
-            return part.line_class == LineClass::shadow;
-        });
+        std::erase_if(
+            lines.parts, [](const LinePart& part) { return part.line_class == LineClass::shadow; });
     if (extra.hidden)
         add_hidden_parts(sources, rules, lines);
 

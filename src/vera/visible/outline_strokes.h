@@ -30,12 +30,13 @@ struct StrokeSources {
 
 /// Lines that not every drawing is to have.
 struct ExtraLines {
-    bool hidden = false; ///< the parts of silhouettes and creases that are not seen
+    bool hidden = false;  ///< the parts of silhouettes and creases that are not seen
     bool shadows = false; ///< where the screen's shadows end
 };
 
-/// Adds the lines that part what is seen, by class, and the extra ones. The frame is no line. What goes on in each other becomes one stroke, and what lies
-/// on an ellipse of a curved primitive an arc of it.
+/// Adds the lines that part what is seen, by class, and the extra ones. The frame is no line. What
+/// goes on in each other becomes one stroke, and what lies on an ellipse of a curved primitive an
+/// arc of it.
 void add_strokes(const StrokeSources& sources, const ExtraLines& extra, Drawing& drawing);
 
 } // namespace vera

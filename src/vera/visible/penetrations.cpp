@@ -47,7 +47,8 @@ public:
         std::array<double, 3> ahead;
         for (std::size_t i = 0; i < 3; ++i) {
             const ScreenPoint point = corners[i].point;
-            const NearnessPlace place = {static_cast<double>(point.x), static_cast<double>(point.y)};
+            const NearnessPlace place = {
+                static_cast<double>(point.x), static_cast<double>(point.y)};
             ahead[i] = own.at(place) - other.at(place);
         }
         std::array<std::optional<ScreenVertex>, 3> found;
@@ -123,8 +124,8 @@ void replace_by_parts(
         add(ab, bc, ca);
     }
     if (scene.triangles.size() == before) {
-        // Of one that is hardly as wide as a step, no part has an area. It is left whole, in the plane
-        // that the grid gives it.
+        // Of one that is hardly as wide as a step, no part has an area. It is left whole, in the
+        // plane that the grid gives it.
         scene.triangles[number].plane = triangle.vertices;
         change.triangles.push_back(number);
         return;

@@ -15,10 +15,17 @@ constexpr std::uint32_t no_source = ~std::uint32_t{0};
 /// Stands for no triangle: the background, where something is seen.
 constexpr std::uint32_t no_triangle = ~std::uint32_t{0};
 
-/// Lights, a bit each.
+/// Lights of a scene: bit i is light number i. Those beyond the most that a set tells apart are in
+/// every set of lights that reach a place.
 using LightSet = std::uint32_t;
 
 constexpr std::uint32_t most_lights_of_a_set = 32;
+
+constexpr LightSet all_lights = ~LightSet{0};
+
+constexpr bool contains(LightSet lights, std::size_t number) {
+    return number >= most_lights_of_a_set || (lights >> number & 1U) != 0;
+}
 
 /// Stands for no light: the triangle is a surface.
 constexpr std::uint32_t no_light = ~std::uint32_t{0};

@@ -99,8 +99,8 @@ void SeenBeside::find_penetrating(Top first, Top last, const Front& front) {
             return;
         }
     }
-    // Where order goes round, tops may change between two that do not pass through each other: there
-    // is nothing to cut.
+    // Where order goes round, tops may change between two that do not pass through each other:
+    // there is nothing to cut.
     if (triangle_order(scene_, slopes_, one.triangle, other.triangle) == FrontOrder::penetrating)
         penetrating_->push_back(std::minmax(one.triangle, other.triangle));
 }

@@ -46,7 +46,8 @@ public:
     explicit SheetsOfCell(const SheetScene& sheets)
         : sheets_(sheets) {}
 
-    /// How near the nearest sheet is that covers the cell, less what may be amiss; -1: there is none.
+    /// How near the nearest sheet is that covers the cell, less what may be amiss; -1: there is
+    /// none.
     double blocked(std::span<const std::uint32_t> triangles, const Square& square);
 
 private:
@@ -109,8 +110,8 @@ double SheetsOfCell::least_nearness(std::uint32_t triangle, const Square& square
     double of_square = std::numeric_limits<double>::infinity();
     for (const std::int32_t x : {square.low.x, square.high.x})
         for (const std::int32_t y : {square.low.y, square.high.y})
-            of_square = std::min(
-                of_square, slope.at({static_cast<double>(x), static_cast<double>(y)}));
+            of_square =
+                std::min(of_square, slope.at({static_cast<double>(x), static_cast<double>(y)}));
     return std::max(of_corners, of_square) - 1 - hidden_margin(slope);
 }
 
@@ -141,8 +142,7 @@ double SheetsOfCell::blocked(std::span<const std::uint32_t> triangles, const Squ
 double nearest_of(const SheetScene& sheets, std::uint32_t triangle) {
     const auto corners = corners_of(sheets.scene, sheets.scene.triangles[triangle]);
     return nearest_for_hiding(
-        sheets.slopes[triangle],
-        std::array{corners[0].point, corners[1].point, corners[2].point});
+        sheets.slopes[triangle], std::array{corners[0].point, corners[1].point, corners[2].point});
 }
 
 /// Takes what is hidden out of the cells' lists.

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "vera/drawing/drawing.h"
+#include "vera/math/color.h"
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace vera {
+
+/// The colour, 1 for 255, at a point of the picture.
+using ColorField = std::function<Color(DrawingPoint)>;
+
+/// What a field is like at a point.
+struct ColorSample {
+    DrawingPoint point;
+    Color color;
+    double slack = 0;   ///< by how much more than elsewhere a paint may differ here, 1 for 255
+    Color slope_x = {}; ///< how the color changes by pixels to the right, about
+    Color slope_y = {}; ///< and downward
+};
+
+/// The samples at the points. Their slack is how much the field changes within that many pixels.
+std::vector<ColorSample>
+color_samples(std::span<const DrawingPoint> points, const ColorField& field, double within);
+
+/// A colour or gradient, and by how much it differs at most from the samples that it was made for,
+/// in any of red, green and blue, beyond their slack; 1 for 255.
+struct FittedPaint {
+    DrawingColor color;
+    std::optional<Gradient> gradient; ///< in place of the colour
+    double error = 0;
+};
+
+// All take one sample or more. A fit ends as soon as its error is within the tolerance, and returns
+// the best that was found where that cannot be. Stops are bytes, and the error is that with them.
+
+/// The one colour that is nearest to all samples.
+FittedPaint flat_fit(std::span<const ColorSample> samples);
+
+/// A linear gradient along a direction in which the samples change most; its stops are set where
+/// the samples ask for them.
+FittedPaint linear_fit(std::span<const ColorSample> samples, double tolerance);
+
+/// A radial gradient about the centre of the ellipses along which the samples change least; nothing
+/// where there are no such ellipses.
+std::optional<FittedPaint> radial_fit(std::span<const ColorSample> samples, double tolerance);
+
+} // namespace vera

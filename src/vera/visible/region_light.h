@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "vera/drawing/drawing.h"
+#include "vera/math/color.h"
+#include "vera/scene/camera.h"
+#include "vera/scene/facets.h"
+#include "vera/scene/picture_settings.h"
+#include "vera/scene/scene.h"
+#include "vera/scene/surface.h"
+#include "vera/visible/convex_piece.h"
+#include "vera/visible/screen_scene.h"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace vera {
+
+/// What a face gives back towards the viewer, place by place of the picture: the lighting formula
+/// (VERA 2.3) without mirrors and glass, with the lights that reach it. Patches have their
+/// interpolated normal, and the facets of a curved surface that of the surface itself: of the side
+/// of a convex piece (FaceUnit::smooth) where the ray meets it, of others where it meets the facet.
+/// Refers to the scene.
+class RegionLight {
+public:
+    RegionLight(
+        const Scene& scene,
+        const Camera& camera,
+        const PictureSettings& picture,
+        const Facets& facets,
+        std::uint32_t first_facet,
+        LightSet lights = all_lights);
+
+    /// At a point of the picture where the face is seen; as a screen shows it, from 0 to 1.
+    Color operator()(DrawingPoint point) const;
+
+private:
+    SurfacePoint on_facet(const Ray& ray) const;
+    SurfacePoint on_body(const Ray& ray) const;
+
+    const Scene& scene_;
+    ViewRays rays_;
+    double width_;
+    double height_;
+    Color ambient_;
+    Facets::Triangle facet_;
+    Vec3 corner_;
+    Vec3 normal_; ///< of the facet's plane, unit, towards the outside
+    bool shows_outside_ = true;
+    bool is_curved_ = false;
+    Convexity convexity_ = Convexity::none;
+    double reach_ = 0; ///< of a convex piece: all that is seen of it is that near to the corner
+    LightSet lights_;
+};
+
+} // namespace vera

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vera/visible/shaded_outlines.h"
+
+#include "vera/shade/firmament.h"
+#include "vera/visible/gradient_fit.h"
+#include "vera/visible/region_paint.h"
+
+#include <algorithm>
+#include <iterator>
+#include <span>
+#include <utility>
+
+namespace vera {
+
+namespace {
+
+std::vector<FilledOutline> shaded_outline(LitOutline lit, const ShadedScene& shaded) {
+    PaintedRegion region;
+    const auto first_below = lit.outline.rings.begin() + static_cast<std::ptrdiff_t>(lit.own_rings);
+    std::move(first_below, lit.outline.rings.end(), std::back_inserter(region.below));
+    lit.outline.rings.erase(first_below, lit.outline.rings.end());
+    region.outline = std::move(lit.outline);
+    const RegionLight light(
+        shaded.scene, shaded.camera, shaded.picture, shaded.facets, lit.facet, lit.lights);
+    return painted(std::move(region), light, shaded.tolerance);
+}
+
+/// Where the rays of the picture go up.
+HalfPlane above_horizon(const Camera& camera, const PictureSettings& picture) {
+    const ViewRays rays(camera);
+    if (rays.projection == Camera::Projection::parallel)
+        return {{0, 0}, rays.origin_or_direction.y};
+    return {
+        {-rays.across.y / picture.width, rays.up.y / picture.height}, rays.corner.y + rays.up.y};
+}
+
+} // namespace
+
+std::vector<FilledOutline>
+shaded_outlines(std::vector<LitOutline> outlines, const ShadedScene& shaded) {
+    std::vector<std::vector<FilledOutline>> parts(outlines.size());
+    constexpr std::size_t grain = 16;
+    parallel_ranges(outlines.size(), grain, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            if (shaded.cancel != nullptr)
+                shaded.cancel->throw_if_raised();
+            parts[i] = shaded_outline(std::move(outlines[i]), shaded);
+        }
+    });
+    std::vector<FilledOutline> all;
+    for (std::vector<FilledOutline>& of_one : parts)
+        std::ranges::move(of_one, std::back_inserter(all));
+    return all;
+}
+
+DrawnFirmament drawn_firmament(
+    const Camera& camera, const PictureSettings& picture, const PaintTolerance& tolerance) {
+    DrawnFirmament drawn;
+    if (!picture.firmament)
+        return drawn;
+    const ViewRays rays(camera);
+    const double width = picture.width;
+    const double height = picture.height;
+    const ColorField sky = [&](DrawingPoint point) {
+        Vec3 direction = rays.ray(point.x / width, point.y / height).direction;
+        direction.y = std::max(direction.y, 0.0); // on the horizon, after rounding
+        return clamped(firmament_color(picture.firmament, direction));
+    };
+    const std::vector<PointChain> frame = {{{0, 0}, {width, 0}, {width, height}, {0, height}}};
+    const HalfPlane above = above_horizon(camera, picture);
+    const HalfPlane below = {{-above.normal.x, -above.normal.y}, -above.reach};
+    PaintedRegion region;
+    region.outline.id = region.outline.group = "sky";
+    region.outline.rings = cut_rings(frame, above);
+    if (!region.outline.rings.empty())
+        drawn.sky = painted(std::move(region), sky, tolerance);
+    const bool shows_earth = !cut_rings(frame, below).empty();
+    if (shows_earth) {
+        const ColorSample earth = {{}, picture.firmament->earth};
+        drawn.background = flat_fit({&earth, 1}).color;
+    } else if (!drawn.sky.empty()) {
+        drawn.background = drawn.sky.front().color;
+        if (drawn.sky.size() == 1 && !drawn.sky.front().gradient)
+            drawn.sky.clear();
+    }
+    return drawn;
+}
+
+} // namespace vera
