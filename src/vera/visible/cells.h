@@ -126,9 +126,9 @@ inline double hidden_margin(const NearnessSlope& slope) {
 
 /// How near the plane is at the nearest of the points, as it may be compared with what blocks a
 /// cell. Asked of the plane: a corner that was moved to the grid may be off it.
-template <std::size_t count>
+template <std::size_t Count>
 double
-nearest_for_hiding(const NearnessSlope& slope, const std::array<ScreenPoint, count>& points) {
+nearest_for_hiding(const NearnessSlope& slope, const std::array<ScreenPoint, Count>& points) {
     double nearest = -std::numeric_limits<double>::infinity();
     for (const ScreenPoint point : points)
         nearest = std::max(
