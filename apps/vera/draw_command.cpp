@@ -22,6 +22,7 @@
 #include "progress_display.h"
 #include "scene_index.h"
 #include "stopwatch.h"
+#include "time_limit.h"
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -44,6 +45,7 @@ struct Request {
     double color_tolerance = 1;
     double page = 0;
     double threads = 0;
+    double time_limit = 0;
     std::vector<std::string> lines;
     bool shadow_lines = false;
     double verify = 0; ///< points; 0: not at all
@@ -249,7 +251,7 @@ nlohmann::ordered_json as_json(const Report& report, const DrawnScene& drawn) {
     return json;
 }
 
-void draw(const Request& request, const Console& console) {
+void draw(const Request& request, Console& console) {
     const DrawingFormat format = output_format(request);
     DrawSettings settings;
     settings.style = style_of(request);
@@ -269,6 +271,7 @@ void draw(const Request& request, const Console& console) {
         apply_line_option(line, file_settings.line_styles);
     const std::uint32_t points = whole_of("--verify", request.verify, 0, most_points);
     const ThreadLimit limit(whole_of("--threads", request.threads, 0, most_threads));
+    const TimeLimit time(number_of("--time-limit", request.time_limit, 0, 1e7), console.cancel);
     Report report;
     Stopwatch watch;
 
@@ -287,13 +290,22 @@ void draw(const Request& request, const Console& console) {
     {
         const CancellableWork work;
         ProgressDisplay display(console, "draw");
-        drawn = draw_scene(
-            prepared.scene,
-            prepared.camera,
-            prepared.settings,
-            settings,
-            display.callback(),
-            &console.cancel);
+        try {
+            drawn = draw_scene(
+                prepared.scene,
+                prepared.camera,
+                prepared.settings,
+                settings,
+                display.callback(),
+                &console.cancel);
+        } catch (const Cancelled&) {
+            if (time.is_over())
+                throw std::runtime_error(fmt::format(
+                    "the drawing takes longer than --time-limit {} allows; nothing is written (a "
+                    "larger --deviation makes fewer facets)",
+                    request.time_limit));
+            throw;
+        }
     }
     report.draw_seconds = watch.lap() - report.verify_seconds;
 
@@ -399,6 +411,13 @@ void add_draw_command(CLI::App& app, Console& console) {
             "by a plane sweep, which meets every crossing of edges, hidden ones as well")
         ->type_name("cells|sweep")
         ->check(CLI::IsMember({"cells", "sweep"}).description(""))
+        ->capture_default_str();
+    command
+        ->add_option(
+            "--time-limit",
+            request->time_limit,
+            "seconds after which the drawing is given up, with exit code 3; 0: none")
+        ->type_name("S")
         ->capture_default_str();
     command->add_option("--threads", request->threads, "0: one for each processor")
         ->type_name("N")

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <filesystem>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -481,6 +482,21 @@ TEST(DrawCommand, ComparesTheDrawingWithRaysOnDemand) {
     const ProgramRun wrong = run_vera(folder, "draw a.vera --verify=-1 -o c.svg");
     EXPECT_EQ(wrong.exit_code, 2) << wrong.err;
     EXPECT_TRUE(holds(wrong.err, "--verify takes a whole number from 0 to")) << wrong.err;
+}
+
+TEST(DrawCommand, GivesUpAfterTheTimeLimitAndLeavesNoFile) {
+    const ScratchFolder folder;
+    std::string text = view;
+    for (int i = 0; i < 400; ++i)
+        text += "SP 0 " + std::to_string(1 + 0.001 * i) + " 0 1\n";
+    folder.write("a.vera", text);
+    const ProgramRun run = run_vera(folder, "draw a.vera --time-limit 0.01 -o a.svg");
+    EXPECT_EQ(run.exit_code, 3) << run.err;
+    EXPECT_TRUE(holds(run.err, "the drawing takes longer than --time-limit 0.01 allows"))
+        << run.err;
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "a.svg"));
+    const ProgramRun wrong = run_vera(folder, "draw a.vera --time-limit -1 -o a.svg");
+    EXPECT_EQ(wrong.exit_code, 2) << wrong.err;
 }
 
 TEST(DrawCommand, LeavesNoFileWhenInterrupted) {

@@ -206,9 +206,8 @@ void for_each_trapezoid(const VisibleMap& map, std::uint32_t region, const Visit
 /// Of what the light then sees, these parts are lit.
 class ShadowsByUnion {
 public:
-    ShadowsByUnion(const Scene& scene, const Camera& camera, const DrawnShadows& drawn)
-        : scene_(scene)
-        , camera_(camera)
+    ShadowsByUnion(const Camera& camera, const DrawnShadows& drawn)
+        : camera_(camera)
         , drawn_(drawn) {
         const VisibleMap& map = drawn.without;
         for (std::uint32_t region = 0; region < map.regions.size(); ++region)
@@ -301,7 +300,6 @@ private:
         return point_at(ray, dot(normal, corner - ray.origin) / dot(normal, ray.direction));
     }
 
-    const Scene& scene_;
     const Camera& camera_;
     const DrawnShadows& drawn_;
     Facets all_;
@@ -394,7 +392,7 @@ TEST(Shadows, AreThoseOfTheConstructOfTheText) {
         const DrawnShadows drawn = drawn_shadows(scene, camera);
         if (drawn.screen.cut_nearness > 0 || drawn.counts.cut_nearness > 0)
             continue;
-        const ShadowsByUnion by_union(scene, camera, drawn);
+        const ShadowsByUnion by_union(camera, drawn);
         for (std::size_t light = 0; light < scene.lights.size(); ++light) {
             const Vec3 position = scene.lights[light].position;
             const ShadowsByUnion::View view(by_union, position);
