@@ -214,6 +214,13 @@ void print_notes(const DrawnScene& drawn, const Console& console) {
                 "coarse",
                 drawn.shadows.cut_nearness),
             console);
+    if (drawn.shadows.light_step > 0)
+        print_note(
+            fmt::format(
+                "what is smaller than {:.3g} may throw no shadow, or one with holes: what is seen "
+                "of the scene reaches too far",
+                drawn.shadows.light_step),
+            console);
     if (drawn.lights_without_shadows > 0)
         print_note(
             fmt::format(
@@ -281,9 +288,21 @@ void draw(const Request& request, Console& console) {
     OutputFile file(request.output);
     report.read_seconds = watch.lap();
 
+    const auto stopped = [&](const Cancelled& cancelled) {
+        if (time.is_over())
+            throw std::runtime_error(fmt::format(
+                "the drawing takes longer than --time-limit {} allows; nothing is written (a "
+                "larger --deviation makes fewer facets)",
+                request.time_limit));
+        throw cancelled;
+    };
     if (settings.style == DrawingStyle::flat || settings.style == DrawingStyle::shaded
         || settings.style == DrawingStyle::toon)
-        expose_as_picture(prepared, console);
+        try {
+            expose_as_picture(prepared, console);
+        } catch (const Cancelled& cancelled) {
+            stopped(cancelled);
+        }
     if (points > 0)
         settings.check = verification(points, settings.deviation, prepared, console, report);
     DrawnScene drawn;
@@ -298,13 +317,9 @@ void draw(const Request& request, Console& console) {
                 settings,
                 display.callback(),
                 &console.cancel);
-        } catch (const Cancelled&) {
-            if (time.is_over())
-                throw std::runtime_error(fmt::format(
-                    "the drawing takes longer than --time-limit {} allows; nothing is written (a "
-                    "larger --deviation makes fewer facets)",
-                    request.time_limit));
-            throw;
+            console.cancel.throw_if_raised();
+        } catch (const Cancelled& cancelled) {
+            stopped(cancelled);
         }
     }
     report.draw_seconds = watch.lap() - report.verify_seconds;

@@ -44,8 +44,8 @@ DrawnShadows drawn_shadows(const Scene& scene, const Camera& camera) {
     drawn.screen = screen_scene(drawn.facets, map, drawn.faces.of_facet);
     const WholePieces whole = whole_pieces(drawn.screen);
     drawn.without = visible_map(drawn.screen, whole.pieces);
-    drawn.counts =
-        add_shadows({scene, drawn.facets, drawn.faces, camera, map, whole.pieces}, drawn.screen);
+    drawn.counts = add_shadows(
+        {scene, drawn.facets, drawn.faces, camera, map, 512, 512, whole.pieces}, drawn.screen);
     drawn.map = visible_map(drawn.screen, cell_raster(drawn.screen));
     return drawn;
 }

@@ -27,8 +27,11 @@ struct Raster {
     std::vector<std::array<ScreenPoint, 3>> corners; ///< of the triangles, side by side
     ScreenEdges edges;
     Cells cells;
-    std::vector<std::uint8_t> is_hidden;      ///< edges that lie behind what covers all their cells
-    std::vector<std::uint8_t> is_inner;       ///< edges between two parts of one shadow
+    std::vector<std::uint8_t> is_hidden; ///< edges that lie behind what covers all their cells
+    std::vector<std::uint8_t> is_inner;  ///< edges between two parts of one shadow
+    /// Of edges that nothing has but shadows on one source, that source, else no_source: other
+    /// sources' shadows do not matter beside them.
+    std::vector<std::uint32_t> shadowed_source;
     std::vector<std::uint8_t> is_near_change; ///< of edges; empty: all are
 };
 
@@ -142,9 +145,14 @@ void EdgeSweep::gather(std::uint32_t edge) {
     end_ = raster_.scene.vertices[end].point;
     ++stamp_;
     candidates_.clear();
+    const std::uint32_t shadowed = raster_.shadowed_source[edge];
+    const auto does_matter = [&](std::uint32_t triangle) {
+        const ScreenTriangle& candidate = raster_.scene.triangles[triangle];
+        return shadowed == no_source || !candidate.is_shadow() || candidate.source == shadowed;
+    };
     for_each_cell_along(raster_.cells, begin_, end_, [&](std::size_t cell) {
         for (const std::uint32_t triangle : raster_.cells.triangles_of(cell))
-            if (stamps_[triangle] != stamp_) {
+            if (stamps_[triangle] != stamp_ && does_matter(triangle)) {
                 stamps_[triangle] = stamp_;
                 candidates_.push_back(triangle);
             }
@@ -427,8 +435,21 @@ bool is_inner(const ScreenScene& scene, const EdgeNeighbours& beside) {
     return left.is_shadow() && left.light == right.light && left.source == right.source;
 }
 
+std::vector<std::uint32_t> shadowed_sources(const ScreenScene& scene, const ScreenEdges& edges) {
+    constexpr std::uint32_t several = no_source - 1;
+    std::vector<std::uint32_t> sources(edges.edges.size(), no_source);
+    for (std::size_t i = 0; i < scene.triangles.size(); ++i)
+        for (const std::uint32_t edge : edges.of_triangle[i]) {
+            const ScreenTriangle& triangle = scene.triangles[i];
+            const bool is_same = sources[edge] == no_source || sources[edge] == triangle.source;
+            sources[edge] = triangle.is_shadow() && is_same ? triangle.source : several;
+        }
+    std::replace(sources.begin(), sources.end(), several, no_source);
+    return sources;
+}
+
 Raster raster_of(const ScreenScene& scene, const CancelFlag* cancel) {
-    Raster raster = {scene, {}, {}, {}, {}, {}, {}, {}, {}};
+    Raster raster = {scene, {}, {}, {}, {}, {}, {}, {}, {}, {}};
     raster.planes.resize(scene.triangles.size());
     raster.slopes.resize(scene.triangles.size());
     raster.corners.resize(scene.triangles.size());
@@ -439,6 +460,7 @@ Raster raster_of(const ScreenScene& scene, const CancelFlag* cancel) {
         raster.corners[i] = {corners[0].point, corners[1].point, corners[2].point};
     }
     raster.edges = screen_edges(scene);
+    raster.shadowed_source = shadowed_sources(scene, raster.edges);
     const std::vector<EdgeNeighbours> neighbours = edge_neighbours(scene, raster.edges);
     raster.is_inner.resize(neighbours.size());
     for (std::size_t i = 0; i < neighbours.size(); ++i)

@@ -427,8 +427,9 @@ DrawnScene draw_scene(
     DrawnScene drawn;
     drawn.facets = all.triangles.size();
     drawn.cut_nearness = screen.cut_nearness;
-    const bool has_shadows = settings.shadow_lines
-        || (picture.shadows && has_fills(settings.style) && settings.style != DrawingStyle::ids);
+    const bool has_shadows = has_fills(settings.style)
+        ? picture.shadows && settings.style != DrawingStyle::ids
+        : settings.shadow_lines;
     const std::size_t steps = has_shadows ? 3 : 1;
     WholePieces whole =
         whole_pieces(screen, progress_part(progress, 0, steps), cancel, settings.engine);
@@ -437,7 +438,14 @@ DrawnScene draw_scene(
     if (has_shadows) {
         const std::size_t surfaces = screen.triangles.size();
         drawn.shadows = add_shadows(
-            {scene, all, faces, camera, camera_map, whole.pieces},
+            {scene,
+             all,
+             faces,
+             camera,
+             camera_map,
+             static_cast<double>(picture.width),
+             static_cast<double>(picture.height),
+             whole.pieces},
             screen,
             progress_part(progress, 1, steps),
             cancel);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "vera/base/parallel.h"
+#include "vera/math/box3.h"
 #include "vera/math/vec3.h"
 #include "vera/scene/facets.h"
 #include "vera/scene/scene.h"
@@ -28,11 +29,15 @@ public:
         return (states_[facet] & (seen | hidden)) == seen;
     }
 
+    /// Whether any view would show it if nothing was before it: it is not seen edge-on, smaller
+    /// than a step of the view's grid, or nearer than that goes.
+    bool is_shown(std::size_t facet) const { return (states_[facet] & shown) != 0; }
+
     /// Adds what one view of the light, whose sources are the facets, shows.
     void add(const ScreenScene& view, const Progress& progress, const CancelFlag* cancel);
 
 private:
-    enum State : std::uint8_t { opaque = 1, seen = 2, hidden = 4 };
+    enum State : std::uint8_t { opaque = 1, seen = 2, hidden = 4, shown = 8 };
 
     std::vector<std::uint8_t> states_; ///< hidden: a part of it is
 };
@@ -46,15 +51,18 @@ struct LightView {
 
 struct LightViews {
     LitFacets lit;
-    std::vector<LightView> views; ///< together of everything
-    double cut_nearness = 0;      ///< what is so near, in the scene's units, they do not show; or 0
+    std::vector<LightView> views; ///< together of everything in the box
+    double step = 0;         ///< of their grids, in the scene's units, where the box is farthest
+    double cut_nearness = 0; ///< what is so near, in the scene's units, they do not show; or 0
 };
 
-/// In one view where everything lies before the light, else on the six sides of a cube about it.
+/// Of what lies between the light and the box: in one view where the box lies before the light,
+/// else on the six sides of a cube about it.
 LightViews light_views(
     const Scene& scene,
     const Facets& facets,
     Vec3 position,
+    const Box3& box,
     const Progress& progress = {},
     const CancelFlag* cancel = nullptr);
 

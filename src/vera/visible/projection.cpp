@@ -27,8 +27,12 @@ Affine3 map_of(Vec3 x, Vec3 y, Vec3 z, Vec3 origin) {
     return map;
 }
 
-/// What lies in the frame, and no nearer than w = nearest.
-void cut_to_frame(CutPolygon& polygon, double nearest) {
+/// What lies in the frame, and no nearer than w = nearest nor farther than w = farthest.
+void cut_to_frame(CutPolygon& polygon, double nearest, double farthest) {
+    if (std::isfinite(farthest))
+        polygon.cut(
+            [&](const ImagePoint& p) { return farthest - p.w; },
+            [&](ImagePoint& p) { p.w = farthest; });
     polygon.cut(
         [&](const ImagePoint& p) { return p.w - nearest; }, [&](ImagePoint& p) { p.w = nearest; });
     polygon.cut([](const ImagePoint& p) { return p.x; }, [](ImagePoint& p) { p.x = 0; });
@@ -90,17 +94,17 @@ struct Snap {
 /// left.
 template <typename Visit>
 void for_visible_part(
-    const std::array<ImagePoint, 3>& corners, double nearest, const Visit& visit) {
+    const std::array<ImagePoint, 3>& corners, double nearest, double farthest, const Visit& visit) {
     // What overflowed lies beyond anything that a picture shows.
     if (are_all_outside(corners) || !std::all_of(corners.begin(), corners.end(), is_finite))
         return;
     const bool is_whole = std::all_of(corners.begin(), corners.end(), [&](const ImagePoint& p) {
-        return is_in_frame(p) && p.w >= nearest;
+        return is_in_frame(p) && p.w >= nearest && p.w <= farthest;
     });
     if (is_whole)
         return visit(std::span<const ImagePoint>(corners));
     CutPolygon polygon(corners);
-    cut_to_frame(polygon, nearest);
+    cut_to_frame(polygon, nearest, farthest);
     visit(polygon.points());
 }
 
@@ -146,8 +150,11 @@ double CameraMap::size_of_pixel(double columns, double rows, Vec3 point) const {
     return std::min(width_ / columns, height_ / rows) * std::max(w, nearest_part);
 }
 
-ScreenScene
-screen_scene(const Facets& facets, const CameraMap& map, std::span<const std::uint32_t> sources) {
+ScreenScene screen_scene(
+    const Facets& facets,
+    const CameraMap& map,
+    std::span<const std::uint32_t> sources,
+    double most_far) {
     std::vector<ImagePoint> points(facets.corners.size());
     parallel_ranges(points.size(), 4096, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i)
@@ -161,14 +168,15 @@ screen_scene(const Facets& facets, const CameraMap& map, std::span<const std::ui
     double farthest = 0;
     for (const ImagePoint& point : points)
         if (is_finite(point))
-            farthest = std::max(farthest, point.w);
+            farthest = std::max(farthest, std::min(point.w, most_far));
     Snap snap = {map.is_parallel(), {}};
     const double tiny = farthest * 0x1p-40;
     for (const Facets::Triangle& facet : facets.triangles)
-        for_visible_part(corners_of_facet(facet), tiny, [&](std::span<const ImagePoint> part) {
-            for (const ImagePoint& point : part)
-                snap.range.include(map.is_parallel() ? point.depth : point.w);
-        });
+        for_visible_part(
+            corners_of_facet(facet), tiny, most_far, [&](std::span<const ImagePoint> part) {
+                for (const ImagePoint& point : part)
+                    snap.range.include(map.is_parallel() ? point.depth : point.w);
+            });
     ScreenScene scene;
     if (!map.is_parallel() && snap.range.least < nearest_part * snap.range.most) {
         snap.range.least = nearest_part * snap.range.most;
@@ -179,7 +187,10 @@ screen_scene(const Facets& facets, const CameraMap& map, std::span<const std::ui
     VertexNumbers numbers(scene.vertices);
     for (std::size_t i = 0; i < facets.triangles.size(); ++i)
         for_visible_part(
-            corners_of_facet(facets.triangles[i]), nearest, [&](std::span<const ImagePoint> part) {
+            corners_of_facet(facets.triangles[i]),
+            nearest,
+            most_far,
+            [&](std::span<const ImagePoint> part) {
                 if (part.size() < 3)
                     return;
                 const std::uint32_t first = numbers.number(snap.vertex(part[0]));

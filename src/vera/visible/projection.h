@@ -7,6 +7,7 @@
 #include "vera/visible/screen_scene.h"
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -44,7 +45,11 @@ private:
 
 /// The facets as the camera sees them: cut at the frame and before the viewer, and moved to the
 /// grid, of which y grows downward. sources[i] is that of facet i. Points that coincide are one.
-ScreenScene
-screen_scene(const Facets& facets, const CameraMap& map, std::span<const std::uint32_t> sources);
+/// What is farther than w = farthest is cut away.
+ScreenScene screen_scene(
+    const Facets& facets,
+    const CameraMap& map,
+    std::span<const std::uint32_t> sources,
+    double farthest = std::numeric_limits<double>::infinity());
 
 } // namespace vera

@@ -2,6 +2,7 @@
 #include "vera/visible/shadows.h"
 
 #include "vera/base/progress_part.h"
+#include "vera/math/box3.h"
 #include "vera/visible/cell_raster.h"
 #include "vera/visible/cells.h"
 #include "vera/visible/cut_polygon.h"
@@ -96,6 +97,35 @@ double viewer_height(const Camera& camera, const FacePlane& plane) {
                                                              : plane.height(camera.viewpoint);
 }
 
+/// A box of all that is seen: of the ends of its borders, each on the planes beside it.
+/// Tells also the size of the smallest pixel there.
+Box3 seen_box(const ShadowedScene& shadowed, const ScreenScene& screen, double& pixel) {
+    Box3 all;
+    for (const Vec3& corner : shadowed.facets.corners)
+        all = grown(all, corner);
+    Box3 seen;
+    for (const VisiblePiece& piece : shadowed.seen.pieces)
+        for (const std::uint32_t triangle : {piece.left, piece.right}) {
+            if (triangle == no_triangle)
+                continue;
+            const std::uint32_t face = screen.triangles[triangle].source;
+            const std::uint32_t facet = shadowed.faces.first_facet[face];
+            const FacePlane plane = plane_of(shadowed, face, facet + 1);
+            for (const RationalPoint& end : {piece.from, piece.to}) {
+                const Ray ray =
+                    view_ray(shadowed.camera, end.x() / screen_size, end.y() / screen_size);
+                const Vec3 at =
+                    point_at(ray, -plane.height(ray.origin) / dot(plane.normal, ray.direction));
+                // Of a plane seen edge-on it may be anywhere; what is not finite leaves the box.
+                seen = grown(seen, min(max(at, all.lower), all.upper));
+                pixel = std::min(
+                    pixel, shadowed.map.size_of_pixel(shadowed.width, shadowed.height, at));
+            }
+        }
+    const bool is_finite = std::isfinite(length(seen.upper - seen.lower));
+    return seen.empty() || !is_finite ? all : seen;
+}
+
 /// A face of which a light reaches a part.
 struct PartlyLit {
     std::uint32_t face = 0;
@@ -158,11 +188,13 @@ public:
     LightShadows(
         const ShadowedScene& shadowed,
         std::span<const Receiver> receivers,
+        const Box3& box,
         std::uint32_t light,
         ScreenScene& screen,
         const CancelFlag* cancel)
         : shadowed_(shadowed)
         , receivers_(receivers)
+        , box_(box)
         , light_(light)
         , position_(shadowed.scene.lights[light].position)
         , screen_(screen)
@@ -186,6 +218,7 @@ private:
 
     const ShadowedScene& shadowed_;
     std::span<const Receiver> receivers_;
+    const Box3& box_; ///< of all that is seen
     std::uint32_t light_;
     Vec3 position_;
     ScreenScene& screen_;
@@ -211,18 +244,22 @@ void LightShadows::find_partly_lit(const LitFacets& lit) {
             continue;
         const std::uint32_t first = shadowed_.faces.first_facet[face];
         bool all = true;
-        bool none = true;
+        bool any_shown = false;
+        bool any_lit = false;
         double step = std::numeric_limits<double>::infinity();
         for (std::uint32_t i = first; i < end_facet(face); ++i) {
-            all = all && lit.is_wholly_seen(i);
-            none = none && !lit.is_seen(i) && lit.is_opaque(i);
+            // What the light's views do not show is so small or near that nothing is before it.
+            const bool is_shown = lit.is_shown(i) || !lit.is_opaque(i);
+            any_shown = any_shown || is_shown;
+            any_lit = any_lit || (is_shown && (lit.is_seen(i) || !lit.is_opaque(i)));
+            all = all && (!is_shown || lit.is_wholly_seen(i));
             for (const std::uint32_t corner : shadowed_.facets.triangles[i].corners)
                 step = std::min(
                     step,
                     shadowed_.map.size_of_pixel(
                         screen_size, screen_size, shadowed_.facets.corners[corner]));
         }
-        if (none)
+        if (any_shown && !any_lit)
             screen_.unlit[face] |= LightSet{1} << light_;
         else if (!all)
             partly_lit_.push_back({face, plane, light_height, 0.25 * step});
@@ -340,8 +377,9 @@ void LightShadows::add_to_screen(
 
 void LightShadows::add(const Progress& progress, ShadowCounts& counts) {
     const LightViews views =
-        light_views(shadowed_.scene, shadowed_.facets, position_, progress, cancel_);
+        light_views(shadowed_.scene, shadowed_.facets, position_, box_, progress, cancel_);
     counts.cut_nearness = std::max(counts.cut_nearness, views.cut_nearness);
+    counts.light_step = std::max(counts.light_step, views.step);
     find_partly_lit(views.lit);
     counts.partly_lit += partly_lit_.size();
     const std::vector<Throw> thrown = throws(views);
@@ -367,12 +405,17 @@ ShadowCounts add_shadows(
     ShadowCounts counts;
     const std::size_t faces = shadowed.faces.first_facet.size();
     const std::vector<Receiver> receivers = receivers_of(screen, shadowed.seen, faces);
+    double pixel = std::numeric_limits<double>::infinity();
+    const Box3 box = seen_box(shadowed, screen, pixel);
     screen.unlit.assign(faces, 0);
     const std::size_t lights =
         std::min<std::size_t>(shadowed.scene.lights.size(), most_lights_of_a_set);
     for (std::uint32_t i = 0; i < lights; ++i)
-        LightShadows(shadowed, receivers, i, screen, cancel)
+        LightShadows(shadowed, receivers, box, i, screen, cancel)
             .add(progress_part(progress, i, lights), counts);
+    // What is smaller than a pixel is not missed.
+    if (counts.light_step <= pixel)
+        counts.light_step = 0;
     return counts;
 }
 

@@ -21,6 +21,8 @@ struct ShadowedScene {
     const DrawnFaces& faces; ///< plane ones, FaceUnit::plane
     const Camera& camera;
     const CameraMap& map;
+    double width = 1; ///< of the picture, in pixels
+    double height = 1;
     const VisiblePieces& seen; ///< of the screen without shadows: these fall on what is seen alone
 };
 
@@ -28,6 +30,8 @@ struct ShadowedScene {
 struct ShadowCounts {
     std::size_t partly_lit = 0; ///< pairs of a light and a face of which it reaches a part
     std::size_t shadows = 0;    ///< triangles that were added
+    double light_step = 0;      ///< what is smaller than that, in the scene's units, may throw no
+                                ///< shadow; 0: nothing that is as large as a pixel
     double cut_nearness = 0; ///< what is so near a light, in the scene's units, throws no shadow;
                              ///< 0: everything does
 };
