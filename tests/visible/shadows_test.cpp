@@ -358,6 +358,31 @@ TEST(Shadows, OfASquareIsTwiceAsLargeFromTwiceItsHeight) {
     EXPECT_EQ(unlit_area(drawn, 1, 0), 0);
 }
 
+TEST(Shadows, OfTheSunFallAsFromParallelLight) {
+    Scene scene = square_over_floor(1, 1);
+    scene.lights = {{.position = {1e11, 2e11, 0}}};
+    const DrawnShadows drawn = drawn_shadows(scene, from_above());
+    // Half a unit of it looks out from below the square.
+    EXPECT_NEAR(unlit_area(drawn, 0, 0), 1.0 / 64, 1e-6);
+    EXPECT_EQ(drawn.counts.light_step, 0);
+}
+
+TEST(Shadows, AreNotLostForWhatIsFarBehind) {
+    Scene scene = square_over_floor(1, 1);
+    // Through all that the light sees, from nearby to a million units away.
+    scene.geometry.triangles.push_back(
+        {{Vec3{-1e6, -1e3, -1e6}, {1e6, -1e3, -1e6}, {0, -2e5, 1e6}}});
+    Item item;
+    item.kind = ItemKind::triangle;
+    item.material = MaterialId{0};
+    scene.geometry.items.push_back(item);
+    number_primitives(scene);
+    scene.lights = {{.position = {0, 2, 0}}};
+    const DrawnShadows drawn = drawn_shadows(scene, from_above());
+    EXPECT_NEAR(unlit_area(drawn, 0, 0), 12.0 / 64, 1e-6);
+    EXPECT_EQ(drawn.counts.cut_nearness, 0);
+}
+
 TEST(Shadows, FallFromWhatStandsOnAFaceWithoutACrumbBetween) {
     Scene scene = square_over_floor(1, 0.7);
     // A wall from the floor up to the square.

@@ -8,7 +8,7 @@
 
 namespace vera {
 
-/// A point of the screen and how near it is: from 0, infinitely far, to depth_size.
+/// A point of the screen and how near it is: from 0 to depth_size.
 struct ScreenVertex {
     ScreenPoint point;
     std::int64_t nearness = 0;

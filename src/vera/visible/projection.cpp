@@ -79,9 +79,14 @@ struct Snap {
     static double rounded(double value) { return std::floor(value + 0.5); }
 
     ScreenVertex vertex(const ImagePoint& p) const {
-        const double nearness = is_parallel
-            ? (range.most > range.least ? (range.most - p.depth) / (range.most - range.least) : 1)
-            : range.least / p.w;
+        // From the nearest to the farthest. Of perspective, what is affine in the picture is 1 / w.
+        // Through a very long lens that is hardly different, and rounding is not to be blown up.
+        constexpr double least_span = 0x1p-22;
+        double nearness = 1;
+        if (range.most > range.least)
+            nearness = is_parallel
+                ? (range.most - p.depth) / (range.most - range.least)
+                : (range.most / p.w - 1) / std::max(range.most / range.least - 1, least_span);
         return {
             {static_cast<std::int32_t>(rounded(p.x / p.w * screen_size)),
              static_cast<std::int32_t>(rounded((1 - p.y / p.w) * screen_size))},
