@@ -31,7 +31,7 @@ TEST(Program, SaysWhatIsWrongWithACommandLine) {
         const char* arguments;
         const char* problem;
     } wrong[] = {
-        {"", "vera: error: say what to do: render, check or info"},
+        {"", "vera: error: say what to do: render, draw, check or info"},
         {"rendr a.vera", "vera: error: unknown command 'rendr'; did you mean 'render'?"},
         {"render a.vera -o a.png --rastr 5x5",
          "unknown option '--rastr'; did you mean '--raster'?"},
