@@ -63,5 +63,9 @@ function(vera_tests folder label)
     if(label MATCHES "^(unit|agree)$")
         add_dependencies(unit_and_agree_tests ${target})
     endif()
+    # Tests are listed when they are linked, and some go through all example scenes: a new scene
+    # links them again.
+    file(GLOB example_scenes CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/scenes/*)
+    set_property(TARGET ${target} PROPERTY LINK_DEPENDS "${example_scenes}")
     gtest_discover_tests(${target} DISCOVERY_TIMEOUT 120 PROPERTIES LABELS "${test_label}" TIMEOUT 600)
 endfunction()
