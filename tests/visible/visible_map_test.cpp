@@ -192,13 +192,7 @@ TEST(Cells, HoldListsInProportionToTheTrianglesHoweverManyLieOneBehindTheOther) 
         scene.vertices.push_back({{0, screen_size}, depth_size / 2 + i});
         add_triangle(scene, {first, first + 1, first + 2}, i);
     }
-    std::vector<DepthPlane> planes;
-    std::vector<NearnessSlope> slopes;
-    for (const ScreenTriangle& triangle : scene.triangles) {
-        planes.push_back(depth_plane(corners_of(scene, triangle)));
-        slopes.push_back(nearness_slope(planes.back()));
-    }
-    EXPECT_LE(cells_of(scene, planes, slopes).triangles.size(), 64 * count + 65536);
+    EXPECT_LE(cells_of(scene).triangles.size(), 64 * count + 65536);
 }
 
 TEST(Cells, AreBlockedByNothingNearerThanWhatCoversThem) {
@@ -208,16 +202,11 @@ TEST(Cells, AreBlockedByNothingNearerThanWhatCoversThem) {
             : seed % 3 == 1 ? layers(seed, 1 + seed % 40, std::int32_t{1} << (1 + seed % 4))
                             : tangle(seed, 2 + seed % 30, 8);
         whole_pieces(scene); // cuts what is tangled to slivers
-        std::vector<DepthPlane> planes;
-        std::vector<NearnessSlope> slopes;
-        for (const ScreenTriangle& triangle : scene.triangles) {
-            planes.push_back(plane_of(scene, triangle));
-            slopes.push_back(nearness_slope(planes.back()));
-        }
+        const std::vector<NearnessSlope> slopes = slopes_of(scene);
         const ScreenEdges edges = screen_edges(scene);
-        Cells cells = cells_of(scene, planes, slopes);
+        Cells cells = cells_of(scene, slopes);
         const std::vector<double> alone = cells.blocked;
-        block_by_sheets(cells, {scene, edges, edge_neighbours(scene, edges), planes, slopes});
+        block_by_sheets(cells, {scene, edges, edge_neighbours(scene, edges), slopes});
         std::mt19937_64 random(seed);
         for (int i = 0; i < 200; ++i) {
             const auto x = static_cast<std::int32_t>(random() % screen_size);
@@ -230,7 +219,8 @@ TEST(Cells, AreBlockedByNothingNearerThanWhatCoversThem) {
                     return orientation(corners[k].point, corners[(k + 1) % 3].point, {x, y}) >= 0;
                 };
                 if (is_left(0) && is_left(1) && is_left(2))
-                    nearest = std::max(nearest, planes[j].value(x, y));
+                    nearest = std::max(
+                        nearest, slopes[j].at({static_cast<double>(x), static_cast<double>(y)}));
             }
             EXPECT_LE(cells.blocked[cell], nearest) << "seed " << seed << " at " << x << " " << y;
             blocked += cells.blocked[cell] > alone[cell] ? 1 : 0;

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/cell_raster.h"
 
-#include "vera/exact/front_order.h"
-#include "vera/visible/cells.h"
-#include "vera/visible/edges.h"
-#include "vera/visible/seen_beside.h"
+#include "vera/visible/edge_sweep.h"
 #include "vera/visible/sheets.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <memory>
 #include <mutex>
@@ -19,388 +15,8 @@ namespace vera {
 
 namespace {
 
-/// What all edges are compared with.
-struct Raster {
-    const ScreenScene& scene;
-    std::vector<DepthPlane> planes;
-    std::vector<NearnessSlope> slopes;
-    std::vector<std::array<ScreenPoint, 3>> corners; ///< of the triangles, side by side
-    ScreenEdges edges;
-    Cells cells;
-    std::vector<std::uint8_t> is_hidden; ///< edges that lie behind what covers all their cells
-    std::vector<std::uint8_t> is_inner;  ///< edges between two parts of one shadow
-    /// Of edges that nothing has but shadows on one source, that source, else no_source: other
-    /// sources' shadows do not matter beside them.
-    std::vector<std::uint32_t> shadowed_source;
-    std::vector<std::uint8_t> is_near_change; ///< of edges; empty: all are
-};
-
-constexpr std::uint32_t no_edge = ~std::uint32_t{0};
-
-/// Where a triangle covers what lies beside an edge.
-struct Cover {
-    std::uint32_t triangle = 0;
-    std::uint8_t sides = 0;
-    std::uint32_t edge = no_edge; ///< of the triangle's that lies there, where it covers one side
-    SegmentPlace first;
-    SegmentPlace last;
-};
-
-constexpr std::uint32_t no_cover = ~std::uint32_t{0};
-
-/// What is seen beside a part of an edge.
-struct Seen {
-    std::uint32_t triangle = no_triangle;
-    LightSet unlit = 0;
-
-    friend bool operator==(const Seen&, const Seen&) = default;
-};
-
-/// A place of the edge at which a cover begins or ends, or a triangle touches it.
-struct Event {
-    double value = 0;
-    SegmentPlace place;
-    std::uint32_t cover = no_cover;
-    bool begins = false;
-};
-
-/// Places as doubles tell them apart from here on: they are off by 2^-52.
-constexpr double surely_apart = 1e-14;
-
-bool is_before(const Event& a, const Event& b) {
-    if (std::abs(a.value - b.value) > surely_apart)
-        return a.value < b.value;
-    return order(a.place, b.place) < 0;
-}
-
-bool is_at_the_same_place(const Event& a, const Event& b) {
-    return std::abs(a.value - b.value) <= surely_apart && order(a.place, b.place) == 0;
-}
-
-constexpr SegmentPlace beginning = {0, 1};
-constexpr SegmentPlace ending = {1, 1};
-
-SegmentPlace clamped(SegmentPlace place) {
-    if (place.numerator < 0)
-        return beginning;
-    return place.numerator > place.denominator ? ending : place;
-}
-
-/// Follows one edge after another: what a thread needs for it.
-class EdgeSweep {
-public:
-    explicit EdgeSweep(const Raster& raster)
-        : raster_(raster)
-        , seen_(raster.scene, raster.slopes)
-        , stamps_(raster.scene.triangles.size()) {}
-
-    void follow(std::uint32_t edge, VisiblePieces& result);
-
-private:
-    void gather(std::uint32_t edge);
-    void add_cover(std::uint32_t triangle);
-    void
-    add_beside(std::uint32_t triangle, const std::array<ScreenPoint, 3>& corners, std::size_t side);
-    void add_across(
-        std::uint32_t triangle,
-        const std::array<ScreenPoint, 3>& corners,
-        const std::array<std::int64_t, 3>& sides);
-    void add_touch(ScreenPoint corner);
-    void sort_events();
-    void change_active(const Event& event);
-    bool ends_a_shadow() const;
-    Seen seen(const Cover* nearest, std::uint8_t side) const;
-    bool speaks_here(std::uint32_t edge, const Cover* left, const Cover* right) const;
-    bool is_still_hidden() const;
-    std::array<const Cover*, 2> seen_between(const Event& first, const Event& last);
-
-    NearnessPlace place_at(double place) const {
-        return {begin_.x + place * (end_.x - begin_.x), begin_.y + place * (end_.y - begin_.y)};
-    }
-
-    std::uint32_t source_of(std::uint32_t triangle) const {
-        return triangle == no_triangle ? no_source : raster_.scene.triangles[triangle].source;
-    }
-
-    const Raster& raster_;
-    SeenBeside seen_;
-    std::vector<std::uint32_t> stamps_; ///< of triangles: the last edge that they were gathered for
-    std::uint32_t stamp_ = 0;
-    std::vector<std::uint32_t> candidates_;
-    std::vector<Cover> covers_;
-    std::vector<SegmentPlace> touches_; ///< where a triangle has a corner on the edge
-    std::vector<Event> events_;
-    std::vector<std::uint32_t> active_; ///< covers by surfaces
-    std::vector<std::uint32_t> active_shadows_;
-    std::uint32_t hidden_by_ = no_cover; ///< on both sides of the part of the edge before
-    ScreenPoint begin_;
-    ScreenPoint end_;
-    VisiblePieces* result_ = nullptr;
-};
-
-/// Gathers the triangles along the edge.
-void EdgeSweep::gather(std::uint32_t edge) {
-    const auto& [begin, end] = raster_.edges.edges[edge];
-    begin_ = raster_.scene.vertices[begin].point;
-    end_ = raster_.scene.vertices[end].point;
-    ++stamp_;
-    candidates_.clear();
-    const std::uint32_t shadowed = raster_.shadowed_source[edge];
-    const auto does_matter = [&](std::uint32_t triangle) {
-        const ScreenTriangle& candidate = raster_.scene.triangles[triangle];
-        return shadowed == no_source || !candidate.is_shadow() || candidate.source == shadowed;
-    };
-    for_each_cell_along(raster_.cells, begin_, end_, [&](std::size_t cell) {
-        for (const std::uint32_t triangle : raster_.cells.triangles_of(cell))
-            if (stamps_[triangle] != stamp_ && does_matter(triangle)) {
-                stamps_[triangle] = stamp_;
-                candidates_.push_back(triangle);
-            }
-        return true;
-    });
-}
-
-/// Of a triangle with a side in the line of the edge, from corner `side` on.
-void EdgeSweep::add_beside(
-    std::uint32_t triangle, const std::array<ScreenPoint, 3>& corners, std::size_t side) {
-    SegmentPlace first = place_on(begin_, end_, corners[side]);
-    SegmentPlace last = place_on(begin_, end_, corners[(side + 1) % 3]);
-    const bool is_left = order(first, last) < 0; // since corners go round to the left
-    if (!is_left)
-        std::swap(first, last);
-    first = clamped(first);
-    last = clamped(last);
-    if (order(first, last) >= 0)
-        return;
-    const std::uint32_t edge = raster_.edges.of_triangle[triangle][side];
-    covers_.push_back(
-        {triangle,
-         is_left ? left_side : right_side,
-         raster_.is_inner[edge] != 0 ? no_edge : edge,
-         first,
-         last});
-}
-
-/// Of a triangle that the line of the edge passes through; sides tells on which side of it each
-/// corner lies.
-void EdgeSweep::add_across(
-    std::uint32_t triangle,
-    const std::array<ScreenPoint, 3>& corners,
-    const std::array<std::int64_t, 3>& sides) {
-    std::array<SegmentPlace, 2> places;
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < 3 && count < 2; ++i) {
-        const std::size_t next = (i + 1) % 3;
-        if (sides[i] == 0) {
-            places[count++] = place_on(begin_, end_, corners[i]);
-            add_touch(corners[i]);
-        } else if ((sides[i] < 0 && sides[next] > 0) || (sides[i] > 0 && sides[next] < 0)) {
-            // The same two numbers whichever of the two triangles at that side is asked.
-            places[count++] = corners[i] < corners[next]
-                ? crossing_place(begin_, end_, corners[i], corners[next])
-                : crossing_place(begin_, end_, corners[next], corners[i]);
-        }
-    }
-    if (order(places[1], places[0]) < 0)
-        std::swap(places[0], places[1]);
-    const SegmentPlace first = clamped(places[0]);
-    const SegmentPlace last = clamped(places[1]);
-    if (order(first, last) < 0)
-        covers_.push_back({triangle, left_side | right_side, no_edge, first, last});
-}
-
-void EdgeSweep::add_cover(std::uint32_t triangle) {
-    const std::array<ScreenPoint, 3>& corners = raster_.corners[triangle];
-    const auto is_beyond = [&](auto coordinate) {
-        const std::int32_t least = std::min(coordinate(begin_), coordinate(end_));
-        const std::int32_t most = std::max(coordinate(begin_), coordinate(end_));
-        return (coordinate(corners[0]) < least && coordinate(corners[1]) < least
-                && coordinate(corners[2]) < least)
-            || (coordinate(corners[0]) > most && coordinate(corners[1]) > most
-                && coordinate(corners[2]) > most);
-    };
-    if (is_beyond([](ScreenPoint p) { return p.x; })
-        || is_beyond([](ScreenPoint p) { return p.y; }))
-        return;
-    std::array<std::int64_t, 3> sides;
-    std::size_t on_line = 0;
-    bool left = false;
-    bool right = false;
-    for (std::size_t i = 0; i < 3; ++i) {
-        sides[i] = orientation(begin_, end_, corners[i]);
-        on_line += sides[i] == 0 ? 1 : 0;
-        left = left || sides[i] > 0;
-        right = right || sides[i] < 0;
-    }
-    if (left && right)
-        return add_across(triangle, corners, sides);
-    if (on_line == 2)
-        return add_beside(triangle, corners, sides[0] != 0 ? 1 : sides[1] != 0 ? 2 : 0);
-    for (std::size_t i = 0; i < 3 && on_line == 1; ++i)
-        if (sides[i] == 0)
-            add_touch(corners[i]);
-}
-
-/// Of a triangle that has a corner on the line of the edge.
-void EdgeSweep::add_touch(ScreenPoint corner) {
-    const SegmentPlace place = place_on(begin_, end_, corner);
-    if (place.numerator > 0 && place.numerator < place.denominator)
-        touches_.push_back(place);
-}
-
-void EdgeSweep::sort_events() {
-    events_.clear();
-    for (std::uint32_t i = 0; i < covers_.size(); ++i) {
-        events_.push_back({covers_[i].first.value(), covers_[i].first, i, true});
-        events_.push_back({covers_[i].last.value(), covers_[i].last, i, false});
-    }
-    for (const SegmentPlace& place : touches_)
-        events_.push_back({place.value(), place});
-    std::sort(events_.begin(), events_.end(), is_before);
-}
-
-void EdgeSweep::change_active(const Event& event) {
-    if (event.cover == no_cover)
-        return;
-    const bool is_shadow = raster_.scene.triangles[covers_[event.cover].triangle].is_shadow();
-    std::vector<std::uint32_t>& active = is_shadow ? active_shadows_ : active_;
-    if (event.begins)
-        active.push_back(event.cover);
-    else
-        active.erase(std::find(active.begin(), active.end(), event.cover));
-}
-
-/// Whether what hid the part of the edge before hides this one as well.
-bool EdgeSweep::is_still_hidden() const {
-    bool is_there = false;
-    for (const std::uint32_t i : active_) {
-        is_there = is_there || i == hidden_by_;
-        if (covers_[i].sides != (left_side | right_side)
-            && !seen_.hides(covers_[hidden_by_].triangle, covers_[i].triangle))
-            return false;
-    }
-    return is_there;
-}
-
-/// Whether a shadow ends at the edge: other lights may reach what is seen there on its two sides.
-bool EdgeSweep::ends_a_shadow() const {
-    return std::any_of(active_shadows_.begin(), active_shadows_.end(), [&](std::uint32_t i) {
-        return covers_[i].sides != (left_side | right_side);
-    });
-}
-
-/// What is seen on the left and on the right between the events, or nothing where that is the same.
-std::array<const Cover*, 2> EdgeSweep::seen_between(const Event& first, const Event& last) {
-    seen_.start(place_at(first.value), place_at(last.value));
-    const bool asks_always = ends_a_shadow();
-    if (!asks_always && hidden_by_ != no_cover && is_still_hidden())
-        return {};
-    for (const std::uint32_t i : active_)
-        seen_.add(covers_[i].triangle, covers_[i].sides);
-    const SeenBeside::Seen seen = seen_.find(result_->penetrating, asks_always);
-    hidden_by_ = seen.hidden_by == SeenBeside::nothing ? no_cover : active_[seen.hidden_by];
-    const auto cover = [&](std::uint32_t number) {
-        return number == SeenBeside::nothing ? nullptr : &covers_[active_[number]];
-    };
-    return {cover(seen.left), cover(seen.right)};
-}
-
-Seen EdgeSweep::seen(const Cover* nearest, std::uint8_t side) const {
-    if (nearest == nullptr)
-        return {};
-    const std::uint32_t source = source_of(nearest->triangle);
-    Seen seen = {nearest->triangle, raster_.scene.unlit_of(source)};
-    for (const std::uint32_t i : active_shadows_) {
-        const ScreenTriangle& shadow = raster_.scene.triangles[covers_[i].triangle];
-        if ((covers_[i].sides & side) != 0 && shadow.source == source)
-            seen.unlit |= LightSet{1} << shadow.light;
-    }
-    return seen;
-}
-
-/// Of several edges in one place that what is seen beside it has, one speaks for all: of those of
-/// the surfaces or, within a surface, of those of the shadows on it.
-bool EdgeSweep::speaks_here(std::uint32_t edge, const Cover* left, const Cover* right) const {
-    std::uint32_t first = no_edge;
-    for (const Cover* cover : {left, right})
-        if (cover != nullptr)
-            first = std::min(first, cover->edge);
-    if (left == right && left != nullptr)
-        for (const std::uint32_t i : active_shadows_)
-            if (source_of(covers_[i].triangle) == source_of(left->triangle))
-                first = std::min(first, covers_[i].edge);
-    return edge == first;
-}
-
-void EdgeSweep::follow(std::uint32_t edge, VisiblePieces& result) {
-    if (raster_.is_hidden[edge] != 0 || raster_.is_inner[edge] != 0)
-        return;
-    gather(edge);
-    result_ = &result;
-    seen_.follow(begin_, end_);
-    covers_.clear();
-    touches_.clear();
-    for (const std::uint32_t triangle : candidates_)
-        add_cover(triangle);
-    sort_events();
-    active_.clear();
-    active_shadows_.clear();
-    hidden_by_ = no_cover;
-
-    struct Piece {
-        SegmentPlace first;
-        Seen left = {};
-        Seen right = {};
-    };
-
-    Piece open;
-    const auto is_open = [&] {
-        return source_of(open.left.triangle) != source_of(open.right.triangle)
-            || open.left.unlit != open.right.unlit;
-    };
-    const auto close = [&](SegmentPlace last) {
-        if (is_open())
-            result.pieces.push_back(
-                {point_at(begin_, end_, open.first),
-                 point_at(begin_, end_, last),
-                 begin_,
-                 end_,
-                 raster_.edges.edges[edge],
-                 open.left.triangle,
-                 open.right.triangle,
-                 open.left.unlit,
-                 open.right.unlit});
-    };
-    for (std::size_t i = 0; i < events_.size();) {
-        const Event& here = events_[i];
-        std::size_t next = i;
-        bool is_touched = false;
-        for (; next < events_.size() && is_at_the_same_place(here, events_[next]); ++next) {
-            change_active(events_[next]);
-            // What covers one side has a corner where it begins and where it ends.
-            is_touched = is_touched || events_[next].cover == no_cover
-                || covers_[events_[next].cover].sides != (left_side | right_side);
-        }
-        Piece piece = {here.place};
-        if (next < events_.size()) {
-            const auto [left, right] = seen_between(here, events_[next]);
-            if (speaks_here(edge, left, right)) {
-                piece.left = seen(left, left_side);
-                piece.right = seen(right, right_side);
-            }
-        }
-        // Where a corner touches the edge, or others of the same source come to be seen, what is
-        // seen beside it may be the same before and behind, and yet other edges end there.
-        if (is_touched || piece.left != open.left || piece.right != open.right) {
-            close(here.place);
-            open = piece;
-        }
-        i = next;
-    }
-}
-
 /// Whether the edge is a point, or lies behind what covers all its cells, if it is so near.
-bool is_hidden(const Raster& raster, const ScreenEdges::Edge& edge, double near) {
+bool is_hidden(const CellRaster& raster, const ScreenEdges::Edge& edge, double near) {
     const ScreenPoint a = raster.scene.vertices[edge.begin].point;
     const ScreenPoint b = raster.scene.vertices[edge.end].point;
     return a == b || for_each_cell_along(raster.cells, a, b, [&](std::size_t cell) {
@@ -409,7 +25,7 @@ bool is_hidden(const Raster& raster, const ScreenEdges::Edge& edge, double near)
 }
 
 /// Of each edge how near it is in the planes of all triangles that have it.
-std::vector<double> nearness_of_edges(const Raster& raster) {
+std::vector<double> nearness_of_edges(const CellRaster& raster) {
     std::vector<double> nearness(
         raster.edges.edges.size(), -std::numeric_limits<double>::infinity());
     for (std::size_t i = 0; i < raster.slopes.size(); ++i)
@@ -448,15 +64,11 @@ std::vector<std::uint32_t> shadowed_sources(const ScreenScene& scene, const Scre
     return sources;
 }
 
-Raster raster_of(const ScreenScene& scene, const CancelFlag* cancel) {
-    Raster raster = {scene, {}, {}, {}, {}, {}, {}, {}, {}, {}};
-    raster.planes.resize(scene.triangles.size());
-    raster.slopes.resize(scene.triangles.size());
+CellRaster raster_of(const ScreenScene& scene, const CancelFlag* cancel) {
+    CellRaster raster = {scene, slopes_of(scene), {}, {}, {}, {}, {}, {}, {}};
     raster.corners.resize(scene.triangles.size());
-    for (std::size_t i = 0; i < raster.planes.size(); ++i) {
+    for (std::size_t i = 0; i < raster.corners.size(); ++i) {
         const std::array<ScreenVertex, 3> corners = corners_of(scene, scene.triangles[i]);
-        raster.planes[i] = plane_of(scene, scene.triangles[i]);
-        raster.slopes[i] = nearness_slope(raster.planes[i]);
         raster.corners[i] = {corners[0].point, corners[1].point, corners[2].point};
     }
     raster.edges = screen_edges(scene);
@@ -465,8 +77,8 @@ Raster raster_of(const ScreenScene& scene, const CancelFlag* cancel) {
     raster.is_inner.resize(neighbours.size());
     for (std::size_t i = 0; i < neighbours.size(); ++i)
         raster.is_inner[i] = is_inner(scene, neighbours[i]) ? 1 : 0;
-    raster.cells = cells_of(scene, raster.planes, raster.slopes, cancel);
-    block_by_sheets(raster.cells, {scene, raster.edges, neighbours, raster.planes, raster.slopes});
+    raster.cells = cells_of(scene, raster.slopes, cancel);
+    block_by_sheets(raster.cells, {scene, raster.edges, neighbours, raster.slopes});
     const std::vector<double> nearness = nearness_of_edges(raster);
     raster.is_hidden.resize(raster.edges.edges.size());
     parallel_ranges(raster.is_hidden.size(), 4096, [&](std::size_t first, std::size_t last) {
@@ -477,7 +89,7 @@ Raster raster_of(const ScreenScene& scene, const CancelFlag* cancel) {
 }
 
 /// Which edges lie in a cell that what was changed touches, or did.
-std::vector<std::uint8_t> edges_near(const SceneChange& change, const Raster& raster) {
+std::vector<std::uint8_t> edges_near(const SceneChange& change, const CellRaster& raster) {
     std::vector<std::uint8_t> is_changed(raster.cells.blocked.size());
     const auto mark = [&](const std::array<ScreenVertex, 3>& corners) {
         for_each_cell_of(raster.cells, corners, [&](std::size_t cell) { is_changed[cell] = 1; });
@@ -506,7 +118,7 @@ std::vector<std::uint8_t> edges_near(const SceneChange& change, const Raster& ra
 /// Lends one EdgeSweep to each thread that works.
 class EdgeSweeps {
 public:
-    explicit EdgeSweeps(const Raster& raster)
+    explicit EdgeSweeps(const CellRaster& raster)
         : raster_(raster) {}
 
     std::unique_ptr<EdgeSweep> take() {
@@ -524,7 +136,7 @@ public:
     }
 
 private:
-    const Raster& raster_;
+    const CellRaster& raster_;
     std::mutex mutex_;
     std::vector<std::unique_ptr<EdgeSweep>> idle_;
 };
@@ -542,7 +154,7 @@ auto first_piece_of(const std::vector<VisiblePiece>& before, ScreenEdges::Edge e
 
 /// Follows the edges that are near what was changed, or all, and keeps the pieces of the others.
 VisiblePieces follow_edges(
-    const Raster& raster,
+    const CellRaster& raster,
     const std::vector<VisiblePiece>& before,
     const Progress& progress,
     const CancelFlag* cancel) {
@@ -610,7 +222,7 @@ VisiblePieces cell_raster_after(
     const ScreenScene& scene,
     const Progress& progress,
     const CancelFlag* cancel) {
-    Raster raster = raster_of(scene, cancel);
+    CellRaster raster = raster_of(scene, cancel);
     raster.is_near_change = edges_near(change, raster);
     // Where no shadow is near, there is none.
     const auto unlit = [&](std::uint32_t triangle) {

@@ -4,20 +4,21 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace vera {
 
 namespace {
 
 /// Not more than how near the plane is at any point of the cell.
-double least_nearness(const Cells& cells, const DepthPlane& plane, ScreenPoint lower) {
+double least_nearness(const Cells& cells, const NearnessSlope& slope, ScreenPoint lower) {
     const auto size = static_cast<double>(std::int64_t{1} << cells.shift);
     double least = std::numeric_limits<double>::infinity();
     for (const double x : {0.0, size})
         for (const double y : {0.0, size})
-            least = std::min(least, plane.value(lower.x + x, lower.y + y));
-    // Within a triangle the terms of value() are at most 2^34, for slivers far more; but those
-    // cover no cell.
+            least = std::min(least, slope.at({lower.x + x, lower.y + y}));
+    // Within a triangle the terms of at() are at most 2^34, for slivers far more; but those cover
+    // no cell.
     return least - 1;
 }
 
@@ -31,87 +32,180 @@ bool may_cover_a_cell(const std::array<ScreenVertex, 3>& corners, const Cells& c
 }
 
 int shift_for(std::size_t triangles) {
-    // Two to four cells a side for the root of their number: the optimum is flat.
+    // One to two cells a side for the root of their number. With more, what hides much is found
+    // sooner and the lists take longer to make: the optimum is flat, and memory decides.
     int bits = 1;
-    while (bits < screen_bits - 4 && std::ldexp(1.0, 2 * bits) < 4 * static_cast<double>(triangles))
+    while (bits < screen_bits - 4 && std::ldexp(1.0, 2 * bits) < static_cast<double>(triangles))
         ++bits;
     return screen_bits - bits;
 }
 
+/// Puts the triangles of a scene into cells. Threads share the rows of cells, so that each list is
+/// written by one of them, in order.
+class CellLists {
+public:
+    CellLists(
+        const ScreenScene& scene, std::span<const NearnessSlope> slopes, const CancelFlag* cancel);
+
+    Cells cells();
+
+private:
+    static constexpr std::size_t group = 64; ///< triangles, which lie near each other
+
+    /// Heights in the picture.
+    struct Reach {
+        std::int32_t least = screen_size;
+        std::int32_t most = 0;
+    };
+
+    /// Calls visit(triangle, row, RowOfCells) for the rows that triangles touch, of those of which
+    /// does_matter(corners) is true: triangle by triangle within a row, in several rows at once.
+    template <typename DoesMatter, typename Visit>
+    void for_each_row(const Cells& cells, const DoesMatter& does_matter, const Visit& visit) const;
+
+    /// Calls visit(cell, triangle) for the triangles of each cell that are not hidden there.
+    template <typename Visit>
+    void for_each_entry(const Cells& cells, const Visit& visit) const;
+
+    void block(Cells& cells) const;
+    std::uint64_t count(Cells& cells) const;
+
+    const ScreenScene& scene_;
+    std::span<const NearnessSlope> slopes_;
+    const CancelFlag* cancel_;
+    std::vector<double> nearness_; ///< of triangles, for hiding
+    std::vector<Reach> reaches_;   ///< of groups
+};
+
+CellLists::CellLists(
+    const ScreenScene& scene, std::span<const NearnessSlope> slopes, const CancelFlag* cancel)
+    : scene_(scene)
+    , slopes_(slopes)
+    , cancel_(cancel)
+    , nearness_(scene.triangles.size())
+    , reaches_((scene.triangles.size() + group - 1) / group) {
+    parallel_ranges(reaches_.size(), 64, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first * group; i < std::min(last * group, nearness_.size()); ++i) {
+            const auto corners = corners_of(scene_, scene_.triangles[i]);
+            nearness_[i] = nearest_for_hiding(
+                slopes_[i], std::array{corners[0].point, corners[1].point, corners[2].point});
+            Reach& reach = reaches_[i / group];
+            for (const ScreenVertex& corner : corners) {
+                reach.least = std::min(reach.least, corner.point.y);
+                reach.most = std::max(reach.most, corner.point.y);
+            }
+        }
+    });
+}
+
+template <typename DoesMatter, typename Visit>
+void CellLists::for_each_row(
+    const Cells& cells, const DoesMatter& does_matter, const Visit& visit) const {
+    constexpr std::int32_t most_bands = 64;
+    const std::int32_t bands = std::min(cells.per_side, most_bands);
+    const std::int32_t height = cells.per_side / bands;
+    parallel_ranges(static_cast<std::size_t>(bands), 1, [&](std::size_t number, std::size_t) {
+        const std::int32_t first = static_cast<std::int32_t>(number) * height;
+        const std::int32_t last = first + height - 1;
+        for (std::size_t in = 0; in < reaches_.size(); ++in) {
+            if (cancel_ != nullptr)
+                cancel_->throw_if_raised();
+            if (cells.cell_of(reaches_[in].most) < first
+                || cells.cell_of(reaches_[in].least) > last)
+                continue;
+            for (std::size_t i = in * group; i < std::min((in + 1) * group, nearness_.size());
+                 ++i) {
+                const auto corners = corners_of(scene_, scene_.triangles[i]);
+                if (!does_matter(corners))
+                    continue;
+                RowsOfCells rows(cells, corners, first, last);
+                for (std::int32_t row = rows.first(); row <= rows.last(); ++row)
+                    visit(static_cast<std::uint32_t>(i), row, rows.next());
+            }
+        }
+    });
+}
+
+template <typename Visit>
+void CellLists::for_each_entry(const Cells& cells, const Visit& visit) const {
+    for_each_row(
+        cells,
+        [](const auto&) { return true; },
+        [&](std::uint32_t i, std::int32_t row, const RowOfCells& found) {
+            for (std::int32_t j = found.touched.first; j <= found.touched.last; ++j)
+                if (const std::size_t cell = cells.number(j, row);
+                    nearness_[i] >= cells.blocked[cell])
+                    visit(cell, i);
+        });
+}
+
 /// Fills in what blocks each cell.
-void block_cells(
-    Cells& cells,
-    const ScreenScene& scene,
-    std::span<const DepthPlane> planes,
-    std::span<const NearnessSlope> slopes) {
-    for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
-        const auto corners = corners_of(scene, scene.triangles[i]);
-        if (scene.triangles[i].is_shadow() || !may_cover_a_cell(corners, cells))
-            continue;
-        for_each_row_of(cells, corners, [&](std::int32_t row, const RowOfCells& found) {
+void CellLists::block(Cells& cells) const {
+    for_each_row(
+        cells,
+        [&](const auto& corners) { return may_cover_a_cell(corners, cells); },
+        [&](std::uint32_t i, std::int32_t row, const RowOfCells& found) {
+            if (scene_.triangles[i].is_shadow())
+                return;
             for (std::int32_t j = found.covered.first; j <= found.covered.last; ++j) {
                 double& blocked = cells.blocked[cells.number(j, row)];
                 const ScreenPoint lower = {j << cells.shift, row << cells.shift};
                 blocked = std::max(
-                    blocked, least_nearness(cells, planes[i], lower) - hidden_margin(slopes[i]));
+                    blocked, least_nearness(cells, slopes_[i], lower) - hidden_margin(slopes_[i]));
             }
         });
-    }
 }
 
-/// Calls visit(cell, triangle) for the triangles of each cell that are not hidden there.
-template <typename Visit>
-void for_each_entry(
-    const Cells& cells,
-    const ScreenScene& scene,
-    std::span<const NearnessSlope> slopes,
-    const CancelFlag* cancel,
-    const Visit& visit) {
-    for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
-        if (cancel != nullptr && i % 256 == 0)
-            cancel->throw_if_raised();
-        const auto corners = corners_of(scene, scene.triangles[i]);
-        const double near = nearest_for_hiding(
-            slopes[i], std::array{corners[0].point, corners[1].point, corners[2].point});
-        for_each_row_of(cells, corners, [&](std::int32_t row, const RowOfCells& found) {
-            for (std::int32_t j = found.touched.first; j <= found.touched.last; ++j)
-                if (const std::size_t cell = cells.number(j, row); near >= cells.blocked[cell])
-                    visit(cell, i);
-        });
-    }
-}
-
-/// Counts the triangles of each cell of that size into starts; returns how many there are in all.
-std::uint64_t count_entries(
-    Cells& cells,
-    const ScreenScene& scene,
-    std::span<const DepthPlane> planes,
-    std::span<const NearnessSlope> slopes,
-    const CancelFlag* cancel) {
+/// Blocks cells of that size, and counts the triangles of each into starts, two places farther on;
+/// returns how many there are in all.
+std::uint64_t CellLists::count(Cells& cells) const {
     cells.per_side = std::int32_t{1} << (screen_bits - cells.shift);
-    const std::size_t count =
+    const std::size_t number =
         static_cast<std::size_t>(cells.per_side) * static_cast<std::size_t>(cells.per_side);
-    cells.blocked.assign(count, -1);
-    cells.starts.assign(count + 1, 0);
-    block_cells(cells, scene, planes, slopes);
-    std::uint64_t entries = 0;
-    for_each_entry(cells, scene, slopes, cancel, [&](std::size_t cell, std::uint32_t) {
-        ++cells.starts[cell + 1];
-        ++entries;
+    cells.blocked.assign(number, -1);
+    cells.starts.assign(number + 2, 0);
+    block(cells);
+    for_each_entry(cells, [&](std::size_t cell, std::uint32_t) { ++cells.starts[cell + 2]; });
+    return std::accumulate(cells.starts.begin(), cells.starts.end(), std::uint64_t{0});
+}
+
+Cells CellLists::cells() {
+    Cells cells;
+    cells.shift = shift_for(static_cast<std::size_t>(std::count_if(
+        scene_.triangles.begin(), scene_.triangles.end(), [](const ScreenTriangle& triangle) {
+            return !triangle.is_shadow();
+        })));
+    const std::uint64_t most = 64 * std::uint64_t{scene_.triangles.size()} + 65536;
+    while (count(cells) > most)
+        ++cells.shift; // with one cell there are as many as triangles
+    std::partial_sum(cells.starts.begin(), cells.starts.end(), cells.starts.begin());
+    cells.triangles.resize(cells.starts.back());
+    // Each list grows from where the one before it ends, until it ends where the next begins.
+    for_each_entry(cells, [&](std::size_t cell, std::uint32_t i) {
+        cells.triangles[cells.starts[cell + 1]++] = i;
     });
-    return entries;
+    cells.starts.pop_back();
+    return cells;
 }
 
 } // namespace
 
-RowsOfCells::RowsOfCells(const Cells& cells, const std::array<ScreenVertex, 3>& corners)
+RowsOfCells::RowsOfCells(
+    const Cells& cells,
+    const std::array<ScreenVertex, 3>& corners,
+    std::int32_t first,
+    std::int32_t last)
     : cells_(cells)
     , corners_(corners)
     , per_cell_(1 / static_cast<double>(std::int64_t{1} << cells.shift)) {
     const auto [lowest, highest] =
         std::minmax({corners[0].point.y, corners[1].point.y, corners[2].point.y});
-    first_ = cells.cell_of(lowest);
-    last_ = cells.cell_of(highest);
+    first_ = std::max(cells.cell_of(lowest), first);
+    last_ = std::min(cells.cell_of(highest), last);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const ScreenStep side = step(corners[i].point, corners[(i + 1) % 3].point);
+        slopes_[i] = static_cast<double>(side.x) / static_cast<double>(side.y);
+    }
     y_ = std::int64_t{first_} << cells.shift;
     at_y_ = chord_at(y_);
 }
@@ -125,10 +219,7 @@ RowsOfCells::Chord RowsOfCells::chord_at(std::int64_t y) const {
         if (a.y == y)
             chord.include(a.x);
         if ((a.y < y && b.y > y) || (a.y > y && b.y < y))
-            chord.include(
-                a.x
-                + static_cast<double>(b.x - a.x) * static_cast<double>(y - a.y)
-                    / static_cast<double>(b.y - a.y));
+            chord.include(a.x + slopes_[i] * static_cast<double>(y - a.y));
     }
     return chord;
 }
@@ -165,37 +256,12 @@ RowOfCells RowsOfCells::next() {
 }
 
 Cells cells_of(
-    const ScreenScene& scene,
-    std::span<const DepthPlane> planes,
-    std::span<const NearnessSlope> slopes,
-    const CancelFlag* cancel) {
-    Cells cells;
-    const auto is_surface = [](const ScreenTriangle& triangle) { return !triangle.is_shadow(); };
-    cells.shift = shift_for(static_cast<std::size_t>(
-        std::count_if(scene.triangles.begin(), scene.triangles.end(), is_surface)));
-    const std::uint64_t most = 64 * std::uint64_t{scene.triangles.size()} + 65536;
-    while (count_entries(cells, scene, planes, slopes, cancel) > most)
-        ++cells.shift; // with one cell there are as many as triangles
-    for (std::size_t i = 1; i < cells.starts.size(); ++i)
-        cells.starts[i] += cells.starts[i - 1];
-    cells.triangles.resize(cells.starts.back());
-    std::vector<std::uint32_t> next(cells.starts.begin(), cells.starts.end() - 1);
-    for_each_entry(cells, scene, slopes, cancel, [&](std::size_t cell, std::uint32_t i) {
-        cells.triangles[next[cell]++] = i;
-    });
-    return cells;
+    const ScreenScene& scene, std::span<const NearnessSlope> slopes, const CancelFlag* cancel) {
+    return CellLists(scene, slopes, cancel).cells();
 }
 
 Cells cells_of(const ScreenScene& scene, const CancelFlag* cancel) {
-    std::vector<DepthPlane> planes;
-    std::vector<NearnessSlope> slopes;
-    planes.reserve(scene.triangles.size());
-    slopes.reserve(scene.triangles.size());
-    for (const ScreenTriangle& triangle : scene.triangles) {
-        planes.push_back(plane_of(scene, triangle));
-        slopes.push_back(nearness_slope(planes.back()));
-    }
-    return cells_of(scene, planes, slopes, cancel);
+    return cells_of(scene, slopes_of(scene), cancel);
 }
 
 } // namespace vera

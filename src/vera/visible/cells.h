@@ -2,9 +2,7 @@
 #pragma once
 
 #include "vera/base/parallel.h"
-#include "vera/exact/depth_plane.h"
-#include "vera/exact/front_order.h"
-#include "vera/visible/screen_scene.h"
+#include "vera/visible/triangle_order.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -54,7 +52,15 @@ struct RowOfCells {
 /// Goes through the rows of cells that a triangle touches.
 class RowsOfCells {
 public:
-    RowsOfCells(const Cells& cells, const std::array<ScreenVertex, 3>& corners);
+    /// The rows from first to last, of those that the triangle touches.
+    RowsOfCells(
+        const Cells& cells,
+        const std::array<ScreenVertex, 3>& corners,
+        std::int32_t first,
+        std::int32_t last);
+
+    RowsOfCells(const Cells& cells, const std::array<ScreenVertex, 3>& corners)
+        : RowsOfCells(cells, corners, 0, cells.per_side - 1) {}
 
     std::int32_t first() const { return first_; }
 
@@ -83,7 +89,8 @@ private:
     double per_cell_;
     std::int32_t first_ = 0;
     std::int32_t last_ = 0;
-    std::int64_t y_ = 0; ///< where the next row begins
+    std::array<double, 3> slopes_ = {}; ///< of the sides, from height to height; finite where asked
+    std::int64_t y_ = 0;                ///< where the next row begins
     Chord at_y_;
 };
 
@@ -107,15 +114,14 @@ void for_each_cell_of(
     });
 }
 
-/// planes[i] and slopes[i] are those of triangle i. Where many triangles lie one behind the other
+/// slopes[i] is that of triangle i. Where many triangles lie one behind the other
 /// there are fewer cells, so that the lists stay in proportion to the triangles.
 Cells cells_of(
     const ScreenScene& scene,
-    std::span<const DepthPlane> planes,
     std::span<const NearnessSlope> slopes,
     const CancelFlag* cancel = nullptr);
 
-/// The same where planes and slopes are not needed otherwise.
+/// The same where slopes are not needed otherwise.
 Cells cells_of(const ScreenScene& scene, const CancelFlag* cancel = nullptr);
 
 /// By how much something must be behind what blocks a cell to be hidden there whatever the order of

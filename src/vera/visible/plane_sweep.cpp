@@ -42,10 +42,7 @@ struct SweptScene {
 };
 
 SweptScene swept_scene(const ScreenScene& scene) {
-    SweptScene swept = {scene, {}, {}, {}};
-    for (const ScreenTriangle& triangle : scene.triangles)
-        swept.slopes.push_back(nearness_slope(plane_of(scene, triangle)));
-    swept.edges = screen_edges(scene);
+    SweptScene swept = {scene, slopes_of(scene), screen_edges(scene), {}};
     swept.segments = sweep_segments(scene, swept.edges);
     return swept;
 }

@@ -145,19 +145,13 @@ double nearest_of(const SheetScene& sheets, std::uint32_t triangle) {
         sheets.slopes[triangle], std::array{corners[0].point, corners[1].point, corners[2].point});
 }
 
-/// Takes what is hidden out of the cells' lists.
-void leave_out_hidden(Cells& cells, const SheetScene& sheets) {
-    std::uint32_t kept = 0;
-    for (std::size_t cell = 0; cell + 1 < cells.starts.size(); ++cell) {
-        const std::uint32_t first = cells.starts[cell];
-        const std::uint32_t last = cells.starts[cell + 1];
-        cells.starts[cell] = kept;
-        for (std::uint32_t i = first; i < last; ++i)
-            if (nearest_of(sheets, cells.triangles[i]) >= cells.blocked[cell])
-                cells.triangles[kept++] = cells.triangles[i];
-    }
-    cells.starts.back() = kept;
-    cells.triangles.resize(kept);
+/// Which triangles hang together with another.
+std::vector<std::uint8_t> joined_triangles(const SheetScene& sheets) {
+    std::vector<std::uint8_t> joined(sheets.scene.triangles.size());
+    for (const EdgeNeighbours& beside : sheets.neighbours)
+        if (beside.are_two())
+            joined[beside.left] = joined[beside.right] = 1;
+    return joined;
 }
 
 } // namespace
@@ -165,23 +159,46 @@ void leave_out_hidden(Cells& cells, const SheetScene& sheets) {
 void block_by_sheets(Cells& cells, const SheetScene& sheets) {
     // In longer lists there is hardly a cell without a border, and joining takes long.
     constexpr std::size_t longest = 256;
+    const std::vector<std::uint8_t> joined = joined_triangles(sheets);
+    std::vector<std::uint32_t> ends(cells.starts.begin() + 1, cells.starts.end());
+    const auto block = [&](std::size_t cell, SheetsOfCell& sheets_of_cell) {
+        const auto triangles = cells.triangles_of(cell);
+        if (triangles.size() < 2 || triangles.size() > longest
+            || std::none_of(triangles.begin(), triangles.end(), [&](std::uint32_t i) {
+                   return joined[i] != 0;
+               }))
+            return;
+        const auto per_side = static_cast<std::size_t>(cells.per_side);
+        const ScreenPoint low = {
+            static_cast<std::int32_t>(cell % per_side) << cells.shift,
+            static_cast<std::int32_t>(cell / per_side) << cells.shift};
+        const std::int32_t size = std::int32_t{1} << cells.shift;
+        const double blocked =
+            sheets_of_cell.blocked(triangles, {low, {low.x + size, low.y + size}});
+        if (blocked <= cells.blocked[cell])
+            return;
+        cells.blocked[cell] = blocked;
+        const auto first = cells.triangles.begin() + cells.starts[cell];
+        const auto kept =
+            std::remove_if(first, first + ends[cell] - cells.starts[cell], [&](std::uint32_t i) {
+                return nearest_of(sheets, i) < blocked;
+            });
+        ends[cell] = static_cast<std::uint32_t>(kept - cells.triangles.begin());
+    };
     parallel_ranges(cells.blocked.size(), 4096, [&](std::size_t first, std::size_t last) {
         SheetsOfCell sheets_of_cell(sheets);
-        for (std::size_t cell = first; cell < last; ++cell) {
-            const auto triangles = cells.triangles_of(cell);
-            if (triangles.size() < 2 || triangles.size() > longest)
-                continue;
-            const auto per_side = static_cast<std::size_t>(cells.per_side);
-            const ScreenPoint low = {
-                static_cast<std::int32_t>(cell % per_side) << cells.shift,
-                static_cast<std::int32_t>(cell / per_side) << cells.shift};
-            const std::int32_t size = std::int32_t{1} << cells.shift;
-            const double blocked =
-                sheets_of_cell.blocked(triangles, {low, {low.x + size, low.y + size}});
-            cells.blocked[cell] = std::max(cells.blocked[cell], blocked);
-        }
+        for (std::size_t cell = first; cell < last; ++cell)
+            block(cell, sheets_of_cell);
     });
-    leave_out_hidden(cells, sheets);
+    // Closes the gaps that hidden triangles leave.
+    auto kept = cells.triangles.begin();
+    for (std::size_t cell = 0; cell < ends.size(); ++cell) {
+        const auto first = cells.triangles.begin() + cells.starts[cell];
+        cells.starts[cell] = static_cast<std::uint32_t>(kept - cells.triangles.begin());
+        kept = std::move(first, cells.triangles.begin() + ends[cell], kept);
+    }
+    cells.starts.back() = static_cast<std::uint32_t>(kept - cells.triangles.begin());
+    cells.triangles.erase(kept, cells.triangles.end());
 }
 
 } // namespace vera

@@ -13,8 +13,7 @@ struct SheetScene {
     const ScreenScene& scene;
     const ScreenEdges& edges;
     std::span<const EdgeNeighbours> neighbours; ///< of the edges
-    std::span<const DepthPlane> planes;         ///< of the triangles
-    std::span<const NearnessSlope> slopes;
+    std::span<const NearnessSlope> slopes;      ///< of the triangles
 };
 
 /// Blocks cells by sheets: triangles that hang together, of which none alone covers the cell. Where

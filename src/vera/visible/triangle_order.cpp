@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/triangle_order.h"
 
+#include "vera/base/parallel.h"
+
 #include <cstdlib>
 #include <utility>
 
@@ -17,6 +19,15 @@ crossing_of_side(ScreenPoint a, ScreenPoint b, std::int64_t side_a, std::int64_t
 }
 
 } // namespace
+
+std::vector<NearnessSlope> slopes_of(const ScreenScene& scene) {
+    std::vector<NearnessSlope> slopes(scene.triangles.size());
+    parallel_ranges(slopes.size(), 4096, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+            slopes[i] = nearness_slope(plane_of(scene, scene.triangles[i]));
+    });
+    return slopes;
+}
 
 Chord chord_in(const std::array<ScreenVertex, 3>& corners, ScreenPoint begin, ScreenPoint end) {
     const ScreenStep way = step(begin, end);

@@ -8,8 +8,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace vera {
+
+/// Of each triangle.
+std::vector<NearnessSlope> slopes_of(const ScreenScene& scene);
 
 /// The part of a line that lies in a triangle. It is found on the triangle's sides, so that it is
 /// the same by whatever points the line is given.

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "vera/visible/cell_raster.h"
+#include "vera/visible/cells.h"
+#include "vera/visible/seen_beside.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace vera {
+
+/// What all edges are compared with.
+struct CellRaster {
+    const ScreenScene& scene;
+    std::vector<NearnessSlope> slopes;
+    std::vector<std::array<ScreenPoint, 3>> corners; ///< of the triangles, side by side
+    ScreenEdges edges;
+    Cells cells;
+    std::vector<std::uint8_t> is_hidden; ///< edges that lie behind what covers all their cells
+    std::vector<std::uint8_t> is_inner;  ///< edges between two parts of one shadow
+    /// Of edges that nothing has but shadows on one source, that source, else no_source: other
+    /// sources' shadows do not matter beside them.
+    std::vector<std::uint32_t> shadowed_source;
+    std::vector<std::uint8_t> is_near_change; ///< of edges; empty: all are
+};
+
+constexpr std::uint32_t no_edge = ~std::uint32_t{0};
+
+/// Follows one edge after another: what a thread needs for it.
+class EdgeSweep {
+public:
+    explicit EdgeSweep(const CellRaster& raster)
+        : raster_(raster)
+        , seen_(raster.scene, raster.slopes)
+        , stamps_(raster.scene.triangles.size()) {}
+
+    void follow(std::uint32_t edge, VisiblePieces& result);
+
+private:
+    static constexpr std::uint32_t no_cover = ~std::uint32_t{0};
+
+    /// Where a triangle covers what lies beside the edge; by no triangle: where it is hidden.
+    struct Cover {
+        std::uint32_t triangle = 0;
+        std::uint8_t sides = 0;
+        std::uint32_t edge =
+            no_edge; ///< of the triangle's that lies there, where it covers one side
+        SegmentPlace first;
+        SegmentPlace last;
+
+        bool is_on_both_sides() const { return sides == (left_side | right_side); }
+    };
+
+    /// A triangle that the line of the edge passes through.
+    struct Across {
+        std::uint32_t triangle = 0;
+        std::array<std::int64_t, 3> sides = {}; ///< orientation() of the edge with its corners
+    };
+
+    /// A place of the edge at which a cover begins or ends, or a triangle touches it.
+    struct Event {
+        enum Kind : std::uint8_t { begins, ends, touches };
+
+        double value = 0;         ///< of the place
+        std::uint32_t number = 0; ///< of the cover, or of the touch
+        Kind kind = touches;
+    };
+
+    /// What is seen beside a part of the edge.
+    struct Seen {
+        std::uint32_t triangle = no_triangle;
+        LightSet unlit = 0;
+
+        friend bool operator==(const Seen&, const Seen&) = default;
+    };
+
+    void gather(std::uint32_t edge);
+    void classify(std::uint32_t triangle);
+    void
+    add_beside(std::uint32_t triangle, const std::array<ScreenPoint, 3>& corners, std::size_t side);
+    void add_across(const Across& across);
+    void add_touch(ScreenPoint corner);
+    void find_hidden_parts();
+    bool is_hidden(SegmentPlace first, SegmentPlace last) const;
+    void sort_events();
+    void change_active(const Event& event);
+    bool ends_a_shadow() const;
+    Seen seen(const Cover* nearest, std::uint8_t side) const;
+    bool speaks_here(std::uint32_t edge, const Cover* left, const Cover* right) const;
+    bool is_still_hidden() const;
+    std::array<const Cover*, 2> seen_between(double first, double last);
+
+    const SegmentPlace& place_of(const Event& event) const {
+        switch (event.kind) {
+        case Event::begins:
+            return covers_[event.number].first;
+        case Event::ends:
+            return covers_[event.number].last;
+        case Event::touches:
+            break;
+        }
+        return touches_[event.number];
+    }
+
+    NearnessPlace place_at(double place) const {
+        return {begin_.x + place * (end_.x - begin_.x), begin_.y + place * (end_.y - begin_.y)};
+    }
+
+    std::uint32_t source_of(std::uint32_t triangle) const {
+        return triangle == no_triangle ? no_source : raster_.scene.triangles[triangle].source;
+    }
+
+    const CellRaster& raster_;
+    SeenBeside seen_;
+    std::vector<std::uint32_t> stamps_; ///< of triangles: the last edge that they were gathered for
+    std::uint32_t stamp_ = 0;
+    std::vector<std::uint32_t> candidates_;
+    std::vector<Across> across_;
+    std::vector<Cover> covers_;
+    std::vector<SegmentPlace> touches_; ///< where a triangle has a corner on the edge
+    std::vector<Event> events_;
+    std::vector<std::uint32_t> active_; ///< covers by surfaces
+    std::vector<std::uint32_t> active_shadows_;
+    std::size_t first_hidden_ = 0;       ///< of the covers by no triangle
+    std::size_t last_hidden_ = 0;        ///< behind them
+    bool is_hidden_here_ = false;        ///< the part of the edge at hand
+    std::uint32_t hidden_by_ = no_cover; ///< on both sides of the part of the edge before
+    ScreenPoint begin_;
+    ScreenPoint end_;
+    VisiblePieces* result_ = nullptr;
+};
+
+} // namespace vera
