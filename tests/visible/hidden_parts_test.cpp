@@ -77,7 +77,7 @@ int compare_with_brute_force(const ScreenScene& scene, std::uint64_t seed) {
     const ScreenEdges edges = screen_edges(scene);
     std::vector<std::uint32_t> drawn(edges.edges.size());
     std::iota(drawn.begin(), drawn.end(), 0U);
-    const std::vector<HiddenPart> parts = hidden_parts(scene, edges, drawn, pieces.pieces);
+    const std::vector<HiddenPart> parts = hidden_parts(scene, edges, drawn, pieces);
     std::mt19937_64 random(seed);
     int compared = 0;
     for (int i = 0; i < 100; ++i) {
@@ -134,12 +134,12 @@ TEST(HiddenParts, AreOfEachEdgeThatIsAskedForAlone) {
             drawn.push_back(i);
     }
     ASSERT_EQ(drawn.size(), 2U);
-    const std::vector<HiddenPart> parts = hidden_parts(scene, edges, drawn, pieces.pieces);
+    const std::vector<HiddenPart> parts = hidden_parts(scene, edges, drawn, pieces);
     // From 2.5 to 5.5 behind the first; up to 12 the line is seen.
     ASSERT_EQ(parts.size(), 1U);
     EXPECT_EQ(parts[0].from, (RationalPoint{{5 * unit / 2, height}}));
     EXPECT_EQ(parts[0].to, (RationalPoint{{11 * unit / 2, height}}));
-    EXPECT_TRUE(hidden_parts(scene, edges, {}, pieces.pieces).empty());
+    EXPECT_TRUE(hidden_parts(scene, edges, {}, pieces).empty());
     const std::vector<HiddenPart> all = hidden_parts(scene, edges, drawn, {});
     ASSERT_EQ(all.size(), 2U); // one behind the other, and not twice where both are
     EXPECT_EQ(all[0].from, (RationalPoint{{0, height}}));

@@ -55,11 +55,17 @@ public:
             return triangle == no_triangle ? no_source : scene.triangles[triangle].source;
         };
         for (const VisiblePiece& piece : found.pieces) {
-            const bool is_rightward = order(piece.from, piece.to) < 0;
-            const ScreenPoint begin = is_rightward ? piece.edge_begin : piece.edge_end;
-            const ScreenPoint end = is_rightward ? piece.edge_end : piece.edge_begin;
+            const RationalPoint& from = found.points[piece.from];
+            const RationalPoint& to = found.points[piece.to];
+            const bool is_rightward = order(from, to) < 0;
+            const ScreenPoint begin = scene.vertices[piece.edge.begin].point;
+            const ScreenPoint end = scene.vertices[piece.edge.end].point;
             MaximalPiece one = {
-                piece.from, piece.to, source(piece.left), source(piece.right), step(begin, end)};
+                from,
+                to,
+                source(piece.left),
+                source(piece.right),
+                is_rightward ? step(begin, end) : step(end, begin)};
             if (!is_rightward) {
                 std::swap(one.from, one.to);
                 std::swap(one.left, one.right);

@@ -134,8 +134,8 @@ TEST(VisibleMap, IsTheSameForAnyNumberOfThreadsAndOrderOfTriangles) {
     const VisiblePieces found = cell_raster(scene);
     ASSERT_EQ(found.pieces.size(), expected.pieces.size());
     for (std::size_t i = 0; i < found.pieces.size(); ++i) {
-        EXPECT_EQ(found.pieces[i].from, expected.pieces[i].from);
-        EXPECT_EQ(found.pieces[i].to, expected.pieces[i].to);
+        EXPECT_EQ(found.points[found.pieces[i].from], expected.points[expected.pieces[i].from]);
+        EXPECT_EQ(found.points[found.pieces[i].to], expected.points[expected.pieces[i].to]);
         EXPECT_EQ(found.pieces[i].left, expected.pieces[i].left);
         EXPECT_EQ(found.pieces[i].right, expected.pieces[i].right);
     }

@@ -2,6 +2,7 @@
 #include "vera/visible/cell_raster.h"
 
 #include "vera/visible/edge_sweep.h"
+#include "vera/visible/point_numbers.h"
 #include "vera/visible/sheets.h"
 
 #include <algorithm>
@@ -152,10 +153,22 @@ auto first_piece_of(const std::vector<VisiblePiece>& before, ScreenEdges::Edge e
         });
 }
 
+/// Adds a piece between two of the points, which are others there.
+void add_piece(
+    VisiblePiece piece,
+    std::span<const RationalPoint> points,
+    PointNumbers& numbers,
+    VisiblePieces& to) {
+    piece.from = numbers.number(points[piece.from]);
+    piece.to = numbers.number(points[piece.to]);
+    to.pieces.push_back(piece);
+}
+
 /// Follows the edges that are near what was changed, or all, and keeps the pieces of the others.
-VisiblePieces follow_edges(
+/// What is found lies in parts, one behind the other.
+std::vector<VisiblePieces> follow_edges(
     const CellRaster& raster,
-    const std::vector<VisiblePiece>& before,
+    const VisiblePieces& before,
     const Progress& progress,
     const CancelFlag* cancel) {
     constexpr std::size_t part = 4096; // edges
@@ -166,17 +179,31 @@ VisiblePieces follow_edges(
     std::size_t done = 0;
     const auto follow_part = [&](std::size_t number, EdgeSweep& sweep) {
         const std::size_t end = std::min(edges.size(), (number + 1) * part);
-        auto kept = first_piece_of(before, edges[number * part]);
+        auto kept = first_piece_of(before.pieces, edges[number * part]);
+        VisiblePieces found;
         for (std::size_t i = number * part; i < end; ++i) {
             if (cancel != nullptr && i % 16 == 0)
                 cancel->throw_if_raised();
             const bool is_followed = raster.is_near_change.empty() || raster.is_near_change[i] != 0;
             if (is_followed)
-                sweep.follow(static_cast<std::uint32_t>(i), parts[number]);
-            for (; kept != before.end() && kept->edge <= edges[i]; ++kept)
-                if (!is_followed && kept->edge == edges[i])
-                    parts[number].pieces.push_back(*kept);
+                sweep.follow(static_cast<std::uint32_t>(i), found);
+            for (; kept != before.pieces.end() && kept->edge <= edges[i]; ++kept)
+                if (!is_followed && kept->edge == edges[i]) {
+                    VisiblePiece& piece = found.pieces.emplace_back(*kept);
+                    for (std::uint32_t* point : {&piece.from, &piece.to}) {
+                        found.points.push_back(before.points[*point]);
+                        *point = static_cast<std::uint32_t>(found.points.size() - 1);
+                    }
+                }
         }
+        // In as little room as it takes, with each point once, since all parts are there at a time.
+        VisiblePieces& result = parts[number];
+        result.pieces.reserve(found.pieces.size());
+        PointNumbers numbers(result.points, found.points.size());
+        for (const VisiblePiece& piece : found.pieces)
+            add_piece(piece, found.points, numbers, result);
+        result.points.shrink_to_fit();
+        result.penetrating = std::move(found.penetrating);
     };
     parallel_ranges(parts.size(), 1, [&](std::size_t first, std::size_t last) {
         std::unique_ptr<EdgeSweep> sweep = sweeps.take();
@@ -188,16 +215,26 @@ VisiblePieces follow_edges(
         if (progress)
             progress(static_cast<double>(done) / static_cast<double>(parts.size()));
     });
+    return parts;
+}
 
+VisiblePieces joined(std::vector<VisiblePieces> parts) {
     VisiblePieces result;
     std::size_t pieces = 0;
-    for (const VisiblePieces& of_part : parts)
-        pieces += of_part.pieces.size();
+    std::size_t points = 0;
+    for (const VisiblePieces& part : parts) {
+        pieces += part.pieces.size();
+        points += part.points.size();
+    }
     result.pieces.reserve(pieces);
-    for (const VisiblePieces& of_part : parts) {
-        result.pieces.insert(result.pieces.end(), of_part.pieces.begin(), of_part.pieces.end());
+    result.points.reserve(points);
+    PointNumbers numbers(result.points, points);
+    for (VisiblePieces& of_part : parts) {
+        const VisiblePieces part = std::move(of_part);
+        for (const VisiblePiece& piece : part.pieces)
+            add_piece(piece, part.points, numbers, result);
         result.penetrating.insert(
-            result.penetrating.end(), of_part.penetrating.begin(), of_part.penetrating.end());
+            result.penetrating.end(), part.penetrating.begin(), part.penetrating.end());
     }
     return result;
 }
@@ -211,7 +248,8 @@ void sort_pairs(std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs) {
 
 VisiblePieces
 cell_raster(const ScreenScene& scene, const Progress& progress, const CancelFlag* cancel) {
-    VisiblePieces result = follow_edges(raster_of(scene, cancel), {}, progress, cancel);
+    std::vector<VisiblePieces> parts = follow_edges(raster_of(scene, cancel), {}, progress, cancel);
+    VisiblePieces result = joined(std::move(parts));
     sort_pairs(result.penetrating);
     return result;
 }
@@ -222,20 +260,24 @@ VisiblePieces cell_raster_after(
     const ScreenScene& scene,
     const Progress& progress,
     const CancelFlag* cancel) {
-    CellRaster raster = raster_of(scene, cancel);
-    raster.is_near_change = edges_near(change, raster);
+    std::vector<std::uint8_t> is_changed(scene.triangles.size());
+    for (const std::uint32_t triangle : change.triangles)
+        is_changed[triangle] = 1;
     // Where no shadow is near, there is none.
     const auto unlit = [&](std::uint32_t triangle) {
         return triangle == no_triangle ? 0 : scene.unlit_of(scene.triangles[triangle].source);
     };
-    std::vector<std::uint8_t> is_changed(scene.triangles.size());
-    for (const std::uint32_t triangle : change.triangles)
-        is_changed[triangle] = 1;
     for (VisiblePiece& piece : before.pieces) {
         piece.left_unlit = unlit(piece.left);
         piece.right_unlit = unlit(piece.right);
     }
-    VisiblePieces result = follow_edges(raster, before.pieces, progress, cancel);
+    std::vector<VisiblePieces> parts;
+    {
+        CellRaster raster = raster_of(scene, cancel);
+        raster.is_near_change = edges_near(change, raster);
+        parts = follow_edges(raster, before, progress, cancel);
+    }
+    VisiblePieces result = joined(std::move(parts));
     for (const auto& [a, b] : before.penetrating)
         if (is_changed[a] == 0 && is_changed[b] == 0)
             result.penetrating.emplace_back(a, b);

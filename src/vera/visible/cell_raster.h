@@ -17,10 +17,8 @@ namespace vera {
 /// A part of an edge that is seen, with different sources beside it, or one that different lights
 /// reach.
 struct VisiblePiece {
-    RationalPoint from;
-    RationalPoint to;
-    ScreenPoint edge_begin; ///< of the whole edge, which runs the same way
-    ScreenPoint edge_end;
+    std::uint32_t from = 0; ///< points, in the direction of the edge
+    std::uint32_t to = 0;
     ScreenEdges::Edge edge;
     std::uint32_t left = no_triangle; ///< which are seen beside it
     std::uint32_t right = no_triangle;
@@ -30,7 +28,8 @@ struct VisiblePiece {
 
 /// What is seen of a scene: all pieces of edges that part what is seen, each once.
 struct VisiblePieces {
-    std::vector<VisiblePiece> pieces; ///< by their edges' vertices
+    std::vector<RationalPoint> points; ///< at which pieces end, each once
+    std::vector<VisiblePiece> pieces;  ///< by their edges' vertices
     /// Triangles that pass through each other where both are seen, in ascending order, each pair
     /// once. Where there are any, the pieces need not close to outlines: see cut_penetrations().
     std::vector<std::pair<std::uint32_t, std::uint32_t>> penetrating;

@@ -463,7 +463,8 @@ DrawnScene draw_scene(
         join_sources(screen, whole.pieces, faces, smooth);
         faces = std::move(smooth);
     }
-    const VisibleMap map = visible_map(screen, whole.pieces);
+    const VisibleMap map = has_lines(settings.style) ? visible_map(screen, whole.pieces)
+                                                     : visible_map(screen, std::move(whole.pieces));
     if (settings.check)
         settings.check({map, primitives_of(all, faces), screen.cut_nearness});
 

@@ -315,17 +315,19 @@ void EdgeSweep::follow(std::uint32_t edge, VisiblePieces& result) {
             || open.left.unlit != open.right.unlit;
     };
     const auto close = [&](SegmentPlace last) {
-        if (is_open())
-            result.pieces.push_back(
-                {point_at(begin_, end_, open.first),
-                 point_at(begin_, end_, last),
-                 begin_,
-                 end_,
-                 raster_.edges.edges[edge],
-                 open.left.triangle,
-                 open.right.triangle,
-                 open.left.unlit,
-                 open.right.unlit});
+        if (!is_open())
+            return;
+        const auto number = static_cast<std::uint32_t>(result.points.size());
+        result.points.push_back(point_at(begin_, end_, open.first));
+        result.points.push_back(point_at(begin_, end_, last));
+        result.pieces.push_back(
+            {number,
+             number + 1,
+             raster_.edges.edges[edge],
+             open.left.triangle,
+             open.right.triangle,
+             open.left.unlit,
+             open.right.unlit});
     };
     const auto are_at_the_same_place = [&](const Event& a, const Event& b) {
         return std::abs(a.value - b.value) <= surely_apart && order(place_of(a), place_of(b)) == 0;

@@ -52,8 +52,10 @@ Span span_of(const ScreenScene& scene, const ScreenEdges::Edge& edge, std::uint3
     return {line_through(a, b), {std::min(a, b)}, {std::max(a, b)}, number};
 }
 
-Span span_of(const VisiblePiece& piece) {
-    Span span = {line_through(piece.edge_begin, piece.edge_end), piece.from, piece.to};
+Span span_of(const ScreenScene& scene, const VisiblePieces& pieces, const VisiblePiece& piece) {
+    const ScreenPoint begin = scene.vertices[piece.edge.begin].point;
+    const ScreenPoint end = scene.vertices[piece.edge.end].point;
+    Span span = {line_through(begin, end), pieces.points[piece.from], pieces.points[piece.to]};
     if (order(span.to, span.from) < 0)
         std::swap(span.from, span.to);
     return span;
@@ -73,10 +75,11 @@ std::vector<Span> spans_of_edges(
 }
 
 /// The pieces on the lines of the edges.
-std::vector<Span> spans_of_pieces(std::span<const VisiblePiece> pieces, std::span<const Span> of) {
+std::vector<Span>
+spans_of_pieces(const ScreenScene& scene, const VisiblePieces& pieces, std::span<const Span> of) {
     std::vector<Span> spans;
-    for (const VisiblePiece& piece : pieces) {
-        const Span span = span_of(piece);
+    for (const VisiblePiece& piece : pieces.pieces) {
+        const Span span = span_of(scene, pieces, piece);
         const auto found = std::lower_bound(
             of.begin(), of.end(), span.line, [](const Span& a, const PictureLine& line) {
                 return a.line < line;
@@ -94,9 +97,9 @@ std::vector<HiddenPart> hidden_parts(
     const ScreenScene& scene,
     const ScreenEdges& edges,
     std::span<const std::uint32_t> drawn,
-    std::span<const VisiblePiece> pieces) {
+    const VisiblePieces& pieces) {
     const std::vector<Span> spans = spans_of_edges(scene, edges, drawn);
-    const std::vector<Span> seen = spans_of_pieces(pieces, spans);
+    const std::vector<Span> seen = spans_of_pieces(scene, pieces, spans);
     std::vector<HiddenPart> parts;
     const auto add = [&](const RationalPoint& from, const RationalPoint& to, std::uint32_t edge) {
         if (order(from, to) < 0)

@@ -24,6 +24,6 @@ std::vector<HiddenPart> hidden_parts(
     const ScreenScene& scene,
     const ScreenEdges& edges,
     std::span<const std::uint32_t> drawn,
-    std::span<const VisiblePiece> pieces);
+    const VisiblePieces& pieces);
 
 } // namespace vera

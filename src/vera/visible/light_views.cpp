@@ -79,11 +79,12 @@ void LitFacets::add(const ScreenScene& view, const Progress& progress, const Can
     // A surface that is seen beside an edge and goes on behind what is seen on the other side.
     const auto goes_on = [&](std::uint32_t triangle, const VisiblePiece& piece) {
         const auto corners = corners_of(view, view.triangles[triangle]);
+        const ScreenPoint begin = view.vertices[piece.edge.begin].point;
+        const ScreenPoint end = view.vertices[piece.edge.end].point;
         for (std::size_t i = 0; i < 3; ++i) {
             const ScreenPoint from = corners[i].point;
             const ScreenPoint to = corners[(i + 1) % 3].point;
-            if (orientation(from, to, piece.edge_begin) == 0
-                && orientation(from, to, piece.edge_end) == 0)
+            if (orientation(from, to, begin) == 0 && orientation(from, to, end) == 0)
                 return is_within_source(view, neighbours[edges.of_triangle[triangle][i]]);
         }
         return true;

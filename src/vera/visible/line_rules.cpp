@@ -42,12 +42,14 @@ LineRules::LineRules(
     const Camera& camera,
     const Facets& facets,
     const DrawnFaces& faces,
-    const ScreenScene& screen)
+    const ScreenScene& screen,
+    std::span<const RationalPoint> points)
     : scene_(scene)
     , camera_(camera)
     , facets_(facets)
     , faces_(faces)
     , screen_(screen)
+    , points_(points)
     , edges_(screen_edges(screen))
     , triangles_(vera::edge_triangles(screen, edges_)) {}
 
@@ -96,7 +98,8 @@ bool LineRules::meet_there(const VisiblePiece& piece) const {
     std::array<DepthPlane, 2> planes;
     for (std::size_t i = 0; i < 2; ++i)
         planes[i] = plane_of(screen_, screen_.triangles[i == 0 ? piece.left : piece.right]);
-    for (const RationalPoint& point : {piece.from, piece.to}) {
+    for (const std::uint32_t end : {piece.from, piece.to}) {
+        const RationalPoint& point = points_[end];
         const double apart =
             std::abs(planes[0].value(point.x(), point.y()) - planes[1].value(point.x(), point.y()));
         double slope = 0;
@@ -114,9 +117,10 @@ bool LineRules::meet_there(const VisiblePiece& piece) const {
 /// surfaces but the other one.
 bool LineRules::ends_there(
     const VisiblePiece& piece, std::uint32_t triangle, std::uint32_t other) const {
+    const auto point = [&](std::uint32_t vertex) { return screen_.vertices[vertex].point; };
     const auto is_on_line = [&](std::size_t corner) {
         const std::uint32_t vertex = screen_.triangles[triangle].vertices[corner % 3];
-        return orientation(piece.edge_begin, piece.edge_end, screen_.vertices[vertex].point) == 0;
+        return orientation(point(piece.edge.begin), point(piece.edge.end), point(vertex)) == 0;
     };
     for (std::size_t side = 0; side < 3; ++side)
         if (is_on_line(side) && is_on_line(side + 1)) {
@@ -131,7 +135,7 @@ bool LineRules::ends_there(
 }
 
 std::optional<LineClass> LineRules::class_of(const VisiblePiece& piece) const {
-    if (are_on_frame(piece.from, piece.to))
+    if (are_on_frame(points_[piece.from], points_[piece.to]))
         return std::nullopt;
     if (piece.left == no_triangle || piece.right == no_triangle)
         return LineClass::silhouette;

@@ -12,6 +12,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace vera {
@@ -24,9 +25,11 @@ public:
         const Camera& camera,
         const Facets& facets,
         const DrawnFaces& faces,
-        const ScreenScene& screen);
+        const ScreenScene& screen,
+        std::span<const RationalPoint> points);
 
-    /// Of a piece that is seen; nothing where the frame cuts a surface, or one goes on smoothly.
+    /// Of a piece that is seen, between two of the points; nothing where the frame cuts a surface,
+    /// or one goes on smoothly.
     std::optional<LineClass> class_of(const VisiblePiece& piece) const;
 
     /// Whether the piece is where a facet of a curved surface covers one that has a corner in
@@ -56,6 +59,7 @@ private:
     const Facets& facets_;
     const DrawnFaces& faces_;
     const ScreenScene& screen_;
+    std::span<const RationalPoint> points_;
     ScreenEdges edges_;
     EdgeTriangles triangles_;
 };

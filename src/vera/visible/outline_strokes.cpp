@@ -45,8 +45,10 @@ std::vector<LinePart> visible_parts(const StrokeSources& sources, const LineRule
         if (!classes[i])
             continue;
         LinePart& part = parts.emplace_back();
-        part.ends = sources.map.piece_ends[i];
-        part.step = step(pieces[i].edge_begin, pieces[i].edge_end);
+        part.ends = {pieces[i].from, pieces[i].to};
+        part.step = step(
+            sources.screen.vertices[pieces[i].edge.begin].point,
+            sources.screen.vertices[pieces[i].edge.end].point);
         part.line_class = *classes[i];
         part.faces = {face_of(pieces[i].left), face_of(pieces[i].right)};
         part.is_between_neighbours = rules.is_between_neighbours(pieces[i]);
@@ -57,7 +59,7 @@ std::vector<LinePart> visible_parts(const StrokeSources& sources, const LineRule
 void add_hidden_parts(const StrokeSources& sources, const LineRules& rules, LineParts& lines) {
     const ScreenEdges& edges = rules.edges();
     const std::vector<HiddenPart> hidden =
-        hidden_parts(sources.screen, edges, rules.drawn_edges(), sources.pieces.pieces);
+        hidden_parts(sources.screen, edges, rules.drawn_edges(), sources.pieces);
     PointNumbers numbers(lines.points, lines.points.size() + 2 * hidden.size());
     for (const HiddenPart& part : hidden) {
         const auto& [begin, end] = edges.edges[part.edge];
@@ -261,8 +263,13 @@ private:
 
 void add_strokes(const StrokeSources& sources, const ExtraLines& extra, Drawing& drawing) {
     const LineRules rules(
-        sources.scene, sources.camera, sources.facets, sources.faces, sources.screen);
-    LineParts lines = {visible_parts(sources, rules), sources.map.vertices};
+        sources.scene,
+        sources.camera,
+        sources.facets,
+        sources.faces,
+        sources.screen,
+        sources.pieces.points);
+    LineParts lines = {visible_parts(sources, rules), sources.pieces.points};
     if (!extra.shadows)
         std::erase_if(
             lines.parts, [](const LinePart& part) { return part.line_class == LineClass::shadow; });

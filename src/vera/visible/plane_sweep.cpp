@@ -161,7 +161,7 @@ void PartFinder::add_part(
 }
 
 /// Joins parts that follow each other on an edge to pieces, where nothing else that is seen ends.
-std::vector<VisiblePiece>
+VisiblePieces
 joined(const SweptScene& swept, const ConnectionGraph& graph, std::vector<VisiblePart>& parts) {
     std::vector<std::uint8_t> meeting(graph.vertex_count());
     for (const VisiblePart& part : parts)
@@ -175,8 +175,15 @@ joined(const SweptScene& swept, const ConnectionGraph& graph, std::vector<Visibl
     });
     SweepCounts uncounted;
     const SweepPredicates predicates(swept.segments.segments, uncounted);
+    VisiblePieces result;
+    constexpr std::uint32_t unnumbered = ~std::uint32_t{0};
+    std::vector<std::uint32_t> numbers(graph.vertex_count(), unnumbered);
     const auto point = [&](std::uint32_t vertex) {
-        return predicates.exact(graph.vertices[vertex].point);
+        if (numbers[vertex] == unnumbered) {
+            numbers[vertex] = static_cast<std::uint32_t>(result.points.size());
+            result.points.push_back(predicates.exact(graph.vertices[vertex].point));
+        }
+        return numbers[vertex];
     };
     const auto goes_on = [&](const VisiblePart& before, const VisiblePart& after) {
         // Where edges cross, what is seen beside both changes; at a corner it need not.
@@ -187,23 +194,16 @@ joined(const SweptScene& swept, const ConnectionGraph& graph, std::vector<Visibl
     std::size_t count = parts.empty() ? 0 : 1;
     for (std::size_t i = 1; i < parts.size(); ++i)
         count += goes_on(parts[i - 1], parts[i]) ? 0 : 1;
-    std::vector<VisiblePiece> pieces;
-    pieces.reserve(count);
+    result.pieces.reserve(count);
     for (std::size_t first = 0, next = 0; first < parts.size(); first = next) {
         for (next = first + 1; next < parts.size() && goes_on(parts[next - 1], parts[next]);)
             ++next;
         const VisiblePart& part = parts[first];
-        const auto& [begin, end] = swept.edges.edges[part.edge];
-        pieces.push_back(
-            {point(part.from),
-             point(parts[next - 1].to),
-             swept.scene.vertices[begin].point,
-             swept.scene.vertices[end].point,
-             swept.edges.edges[part.edge],
-             part.left,
-             part.right});
+        const std::uint32_t from = point(part.from);
+        const std::uint32_t to = point(parts[next - 1].to);
+        result.pieces.push_back({from, to, swept.edges.edges[part.edge], part.left, part.right});
     }
-    return pieces;
+    return result;
 }
 
 /// How many pairs of segments cross: all are asked, or as many as suffice, at random.
@@ -311,8 +311,7 @@ VisiblePieces plane_sweep(
     // Pieces need as much room as what is no longer asked for.
     std::vector<ConnectionGraph::Edge>().swap(graph.edges);
     std::vector<std::uint32_t>().swap(graph.gaps);
-    VisiblePieces result;
-    result.pieces = joined(swept, graph, finder.parts);
+    VisiblePieces result = joined(swept, graph, finder.parts);
     result.penetrating = std::move(finder.penetrating);
     std::sort(result.penetrating.begin(), result.penetrating.end());
     result.penetrating.erase(

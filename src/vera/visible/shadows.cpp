@@ -111,7 +111,8 @@ Box3 seen_box(const ShadowedScene& shadowed, const ScreenScene& screen, double& 
             const std::uint32_t face = screen.triangles[triangle].source;
             const std::uint32_t facet = shadowed.faces.first_facet[face];
             const FacePlane plane = plane_of(shadowed, face, facet + 1);
-            for (const RationalPoint& end : {piece.from, piece.to}) {
+            for (const std::uint32_t number : {piece.from, piece.to}) {
+                const RationalPoint& end = shadowed.seen.points[number];
                 const Ray ray =
                     view_ray(shadowed.camera, end.x() / screen_size, end.y() / screen_size);
                 const Vec3 at =

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/visible_map.h"
 
-#include "vera/visible/point_numbers.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -15,12 +13,36 @@ namespace {
 constexpr std::uint32_t none = ~std::uint32_t{0};
 
 /// The two ways along a piece: 2 i with, 2 i + 1 against its edge.
-struct Ways {
-    std::vector<std::uint32_t> from; ///< where they begin
-    std::vector<ScreenStep> direction;
+class Ways {
+public:
+    Ways(const ScreenScene& scene, const std::vector<VisiblePiece>& pieces)
+        : region(2 * pieces.size(), no_region)
+        , scene_(scene)
+        , pieces_(pieces) {}
+
+    std::size_t count() const { return region.size(); }
+
+    /// Where the way begins.
+    std::uint32_t from(std::uint32_t way) const {
+        const VisiblePiece& piece = pieces_[way / 2];
+        return way % 2 == 0 ? piece.from : piece.to;
+    }
+
+    std::uint32_t to(std::uint32_t way) const { return from(way ^ 1U); }
+
+    /// Along the whole edge.
+    ScreenStep direction(std::uint32_t way) const {
+        const ScreenEdges::Edge& edge = pieces_[way / 2].edge;
+        const ScreenPoint begin = scene_.vertices[edge.begin].point;
+        const ScreenPoint end = scene_.vertices[edge.end].point;
+        return way % 2 == 0 ? step(begin, end) : step(end, begin);
+    }
+
     std::vector<std::uint32_t> region; ///< seen on the left
 
-    std::uint32_t to(std::uint32_t way) const { return from[way ^ 1U]; }
+private:
+    const ScreenScene& scene_;
+    const std::vector<VisiblePiece>& pieces_;
 };
 
 /// Whether a lies in the half turn that begins with the direction to the right.
@@ -47,17 +69,17 @@ struct Leaving {
 Leaving leaving_ways(const Ways& ways, std::size_t vertex_count) {
     Leaving leaving;
     leaving.starts.resize(vertex_count + 1);
-    for (const std::uint32_t vertex : ways.from)
-        ++leaving.starts[vertex + 1];
+    for (std::uint32_t way = 0; way < ways.count(); ++way)
+        ++leaving.starts[ways.from(way) + 1];
     std::partial_sum(leaving.starts.begin(), leaving.starts.end(), leaving.starts.begin());
-    leaving.ways.resize(ways.from.size());
+    leaving.ways.resize(ways.count());
     std::vector<std::uint32_t> next(leaving.starts.begin(), leaving.starts.end() - 1);
-    for (std::uint32_t way = 0; way < ways.from.size(); ++way)
-        leaving.ways[next[ways.from[way]]++] = way;
+    for (std::uint32_t way = 0; way < ways.count(); ++way)
+        leaving.ways[next[ways.from(way)]++] = way;
     for (std::size_t vertex = 0; vertex < vertex_count; ++vertex) {
         const std::span<std::uint32_t> here = leaving.of(vertex);
         std::sort(here.begin(), here.end(), [&](std::uint32_t a, std::uint32_t b) {
-            return turns_before(ways.direction[a], ways.direction[b]);
+            return turns_before(ways.direction(a), ways.direction(b));
         });
     }
     return leaving;
@@ -87,7 +109,7 @@ void join(Loose loose, const Ways& ways, std::vector<std::uint32_t>& following, 
             loose.begins.begin() + static_cast<std::ptrdiff_t>(last));
         const auto distance = [&](std::uint32_t end, std::uint32_t begin) {
             const RationalPoint& from = map.vertices[ways.to(end)];
-            const RationalPoint& to = map.vertices[ways.from[begin]];
+            const RationalPoint& to = map.vertices[ways.from(begin)];
             const double x = to.x() - from.x();
             const double y = to.y() - from.y();
             return std::sqrt(x * x + y * y);
@@ -115,7 +137,7 @@ void join(Loose loose, const Ways& ways, std::vector<std::uint32_t>& following, 
 /// of the way back.
 std::vector<std::uint32_t> following(const Ways& ways, VisibleMap& map) {
     Leaving leaving = leaving_ways(ways, map.vertices.size());
-    std::vector<std::uint32_t> result(ways.from.size());
+    std::vector<std::uint32_t> result(ways.count());
     Loose loose;
     for (std::size_t vertex = 0; vertex < map.vertices.size(); ++vertex) {
         const std::span<const std::uint32_t> here = leaving.of(vertex);
@@ -184,17 +206,12 @@ private:
     std::vector<Listed> listed_;
 };
 
-Ways ways_of(const ScreenScene& scene, const VisiblePieces& pieces, VisibleMap& map) {
-    const std::size_t count = pieces.pieces.size();
-    Ways ways;
-    ways.from.resize(2 * count);
-    ways.direction.resize(2 * count);
-    ways.region.resize(2 * count, no_region);
-    PointNumbers points(map.vertices, count + count / 2);
+Ways ways_of(const ScreenScene& scene, const std::vector<VisiblePiece>& pieces, VisibleMap& map) {
+    Ways ways(scene, pieces);
     // Calls visit(way, region) for the ways with one on their left.
     const auto for_each_region = [&](const auto& visit) {
-        for (std::size_t i = 0; i < count; ++i) {
-            const VisiblePiece& piece = pieces.pieces[i];
+        for (std::size_t i = 0; i < pieces.size(); ++i) {
+            const VisiblePiece& piece = pieces[i];
             if (piece.left != no_triangle)
                 visit(
                     2 * i,
@@ -211,14 +228,6 @@ Ways ways_of(const ScreenScene& scene, const VisiblePieces& pieces, VisibleMap& 
     for_each_region([&](std::size_t way, VisibleMap::Region region) {
         ways.region[way] = regions.number(region);
     });
-    for (std::size_t i = 0; i < count; ++i) {
-        const VisiblePiece& piece = pieces.pieces[i];
-        map.piece_ends.push_back({points.number(piece.from), points.number(piece.to)});
-        ways.from[2 * i] = map.piece_ends.back()[0];
-        ways.from[2 * i + 1] = map.piece_ends.back()[1];
-        ways.direction[2 * i] = step(piece.edge_begin, piece.edge_end);
-        ways.direction[2 * i + 1] = step(piece.edge_end, piece.edge_begin);
-    }
     return ways;
 }
 
@@ -226,18 +235,16 @@ bool is_straight_on(ScreenStep a, ScreenStep b) {
     return cross(a, b) == 0;
 }
 
-} // namespace
-
-VisibleMap visible_map(const ScreenScene& scene, const VisiblePieces& pieces) {
-    VisibleMap map;
+/// Whose vertices are there already.
+void fill_map(const ScreenScene& scene, const std::vector<VisiblePiece>& pieces, VisibleMap& map) {
     const Ways ways = ways_of(scene, pieces, map);
     const std::vector<std::uint32_t> next = following(ways, map);
-    std::vector<std::uint8_t> done(ways.from.size());
+    std::vector<std::uint8_t> done(ways.count());
     const auto add = [&](std::uint32_t vertex, std::uint32_t across) {
         map.ring_vertices.push_back(vertex);
         map.ring_across.push_back(across);
     };
-    for (std::uint32_t first = 0; first < ways.from.size(); ++first) {
+    for (std::uint32_t first = 0; first < ways.count(); ++first) {
         if (done[first] != 0 || ways.region[first] == no_region)
             continue;
         VisibleMap::Ring ring = {
@@ -249,12 +256,12 @@ VisibleMap visible_map(const ScreenScene& scene, const VisiblePieces& pieces) {
         do {
             done[way] = 1;
             const std::uint32_t after = next[way];
-            const bool is_joined = ways.to(way) != ways.from[after];
+            const bool is_joined = ways.to(way) != ways.from(after);
             if (is_joined)
                 add(ways.to(way), no_region);
-            if (is_joined || !is_straight_on(ways.direction[way], ways.direction[after])
+            if (is_joined || !is_straight_on(ways.direction(way), ways.direction(after))
                 || ways.region[way ^ 1U] != ways.region[after ^ 1U])
-                add(ways.from[after], ways.region[after ^ 1U]);
+                add(ways.from(after), ways.region[after ^ 1U]);
             way = after;
         } while (way != first);
         ring.count = map.ring_vertices.size() - ring.first;
@@ -263,6 +270,22 @@ VisibleMap visible_map(const ScreenScene& scene, const VisiblePieces& pieces) {
     std::stable_sort(map.rings.begin(), map.rings.end(), [](const auto& a, const auto& b) {
         return a.region < b.region;
     });
+}
+
+} // namespace
+
+VisibleMap visible_map(const ScreenScene& scene, const VisiblePieces& pieces) {
+    VisibleMap map;
+    map.vertices = pieces.points;
+    fill_map(scene, pieces.pieces, map);
+    return map;
+}
+
+VisibleMap visible_map(const ScreenScene& scene, VisiblePieces&& pieces) {
+    VisiblePieces taken = std::move(pieces);
+    VisibleMap map;
+    map.vertices = std::move(taken.points);
+    fill_map(scene, taken.pieces, map);
     return map;
 }
 

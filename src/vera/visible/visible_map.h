@@ -4,7 +4,6 @@
 #include "vera/visible/cell_raster.h"
 #include "vera/visible/screen_scene.h"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -36,10 +35,9 @@ struct VisibleMap {
         std::size_t count = 0;
     };
 
-    std::vector<RationalPoint> vertices;
-    std::vector<std::array<std::uint32_t, 2>> piece_ends; ///< the vertices of each piece
-    std::vector<Region> regions;                          ///< in ascending order
-    std::vector<Ring> rings;                              ///< by region
+    std::vector<RationalPoint> vertices; ///< the points of the pieces
+    std::vector<Region> regions;         ///< in ascending order
+    std::vector<Ring> rings;             ///< by region
     std::vector<std::uint32_t> ring_vertices;
     std::vector<std::uint32_t> ring_across; ///< regions, or no_region
     /// How often ways round what is seen had to be joined by a straight one. None where nothing was
@@ -59,6 +57,9 @@ struct VisibleMap {
 };
 
 VisibleMap visible_map(const ScreenScene& scene, const VisiblePieces& pieces);
+
+/// The same where the pieces are not needed any more: takes less memory.
+VisibleMap visible_map(const ScreenScene& scene, VisiblePieces&& pieces);
 
 /// Twice the area that the ring encloses, about, in steps of the grid; negative round a hole.
 double doubled_area(const VisibleMap& map, const VisibleMap::Ring& ring);
