@@ -136,8 +136,6 @@ void begin_with_first(std::vector<RationalPoint>& points) {
 struct Seen {
     std::vector<MaximalPiece> pieces;
     std::vector<Outline> outlines;
-
-    friend bool operator==(const Seen&, const Seen&) = default;
 };
 
 using Engine = VisiblePieces (*)(const ScreenScene&);

@@ -96,6 +96,13 @@ public:
 
     void follow(std::uint32_t edge, VisiblePieces& result);
 
+    /// Of all edges that it followed.
+    CellCounts counts() const {
+        CellCounts counts = counts_;
+        counts.depth_orders = seen_.comparisons();
+        return counts;
+    }
+
 private:
     void gather(std::uint32_t edge);
     void add_cover(std::uint32_t triangle);
@@ -136,6 +143,7 @@ private:
     ScreenPoint begin_;
     ScreenPoint end_;
     VisiblePieces* result_ = nullptr;
+    CellCounts counts_;
 };
 
 /// Gathers the triangles along the edge.
@@ -151,7 +159,10 @@ void EdgeSweep::gather(std::uint32_t edge) {
         return shadowed == no_source || !candidate.is_shadow() || candidate.source == shadowed;
     };
     for_each_cell_along(raster_.cells, begin_, end_, [&](std::size_t cell) {
-        for (const std::uint32_t triangle : raster_.cells.triangles_of(cell))
+        const std::span<const std::uint32_t> here = raster_.cells.triangles_of(cell);
+        ++counts_.followed_cells;
+        counts_.looked_at += here.size();
+        for (const std::uint32_t triangle : here)
             if (stamps_[triangle] != stamp_ && does_matter(triangle)) {
                 stamps_[triangle] = stamp_;
                 candidates_.push_back(triangle);
@@ -292,6 +303,7 @@ bool EdgeSweep::ends_a_shadow() const {
 /// What is seen on the left and on the right between the events, or nothing where that is the same.
 std::array<const Cover*, 2> EdgeSweep::seen_between(const Event& first, const Event& last) {
     seen_.start(place_at(first.value), place_at(last.value));
+    counts_.active += active_.size();
     const bool asks_always = ends_a_shadow();
     if (!asks_always && hidden_by_ != no_cover && is_still_hidden())
         return {};
@@ -343,6 +355,9 @@ void EdgeSweep::follow(std::uint32_t edge, VisiblePieces& result) {
     for (const std::uint32_t triangle : candidates_)
         add_cover(triangle);
     sort_events();
+    ++counts_.followed;
+    counts_.candidates += candidates_.size();
+    counts_.events += events_.size();
     active_.clear();
     active_shadows_.clear();
     hidden_by_ = no_cover;
@@ -523,6 +538,14 @@ public:
         idle_.push_back(std::move(sweep));
     }
 
+    /// Of all edges that were followed, when all have been given back.
+    CellCounts counts() const {
+        CellCounts counts;
+        for (const std::unique_ptr<EdgeSweep>& sweep : idle_)
+            counts.add_followed(sweep->counts());
+        return counts;
+    }
+
 private:
     const Raster& raster_;
     std::mutex mutex_;
@@ -545,7 +568,8 @@ VisiblePieces follow_edges(
     const Raster& raster,
     const std::vector<VisiblePiece>& before,
     const Progress& progress,
-    const CancelFlag* cancel) {
+    const CancelFlag* cancel,
+    CellCounts& counts) {
     constexpr std::size_t part = 4096; // edges
     const std::vector<ScreenEdges::Edge>& edges = raster.edges.edges;
     std::vector<VisiblePieces> parts((edges.size() + part - 1) / part);
@@ -577,6 +601,7 @@ VisiblePieces follow_edges(
             progress(static_cast<double>(done) / static_cast<double>(parts.size()));
     });
 
+    counts = sweeps.counts();
     VisiblePieces result;
     std::size_t pieces = 0;
     for (const VisiblePieces& of_part : parts)
@@ -590,6 +615,29 @@ VisiblePieces follow_edges(
     return result;
 }
 
+/// Counts what was done before edges were followed, by doing it once more.
+void count_cells(const Raster& raster, CellCounts& counts) {
+    counts.cells = raster.cells.blocked.size();
+    counts.entries = raster.cells.triangles.size();
+    counts.edges = raster.edges.edges.size();
+    for (const ScreenTriangle& triangle : raster.scene.triangles)
+        for_each_cell_of(raster.cells, corners_of(raster.scene, triangle), [&](std::size_t) {
+            ++counts.touched;
+        });
+    const std::vector<double> nearness = nearness_of_edges(raster);
+    for (std::size_t i = 0; i < raster.edges.edges.size(); ++i) {
+        const auto& [begin, end] = raster.edges.edges[i];
+        for_each_cell_along(
+            raster.cells,
+            raster.scene.vertices[begin].point,
+            raster.scene.vertices[end].point,
+            [&](std::size_t cell) {
+                ++counts.edge_cells;
+                return nearness[i] < raster.cells.blocked[cell];
+            });
+    }
+}
+
 void sort_pairs(std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs) {
     std::sort(pairs.begin(), pairs.end());
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
@@ -597,9 +645,18 @@ void sort_pairs(std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs) {
 
 } // namespace
 
-VisiblePieces
-cell_raster(const ScreenScene& scene, const Progress& progress, const CancelFlag* cancel) {
-    VisiblePieces result = follow_edges(raster_of(scene, cancel), {}, progress, cancel);
+VisiblePieces cell_raster(
+    const ScreenScene& scene,
+    const Progress& progress,
+    const CancelFlag* cancel,
+    CellCounts* counts) {
+    const Raster raster = raster_of(scene, cancel);
+    CellCounts counted;
+    VisiblePieces result = follow_edges(raster, {}, progress, cancel, counted);
+    if (counts != nullptr) {
+        count_cells(raster, counted);
+        *counts = counted;
+    }
     sort_pairs(result.penetrating);
     return result;
 }
@@ -623,7 +680,8 @@ VisiblePieces cell_raster_after(
         piece.left_unlit = unlit(piece.left);
         piece.right_unlit = unlit(piece.right);
     }
-    VisiblePieces result = follow_edges(raster, before.pieces, progress, cancel);
+    CellCounts uncounted;
+    VisiblePieces result = follow_edges(raster, before.pieces, progress, cancel, uncounted);
     for (const auto& [a, b] : before.penetrating)
         if (is_changed[a] == 0 && is_changed[b] == 0)
             result.penetrating.emplace_back(a, b);
