@@ -5,116 +5,20 @@
 #include "vera/visible/projection.h"
 #include "vera/visible/visible_map.h"
 
-#include <algorithm>
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "accel/random_scene.h"
+#include "visible/maximal_pieces.h"
 #include "visible/screen_scenes.h"
 #include <gtest/gtest.h>
 
 namespace vera {
 namespace {
 
-struct LessPoint {
-    bool operator()(const RationalPoint& a, const RationalPoint& b) const {
-        return order(a, b) < 0;
-    }
-};
-
-/// A piece between points at which something that is seen ends or turns, from left to right.
-struct MaximalPiece {
-    RationalPoint from;
-    RationalPoint to;
-    std::uint32_t left = 0; ///< sources
-    std::uint32_t right = 0;
-    ScreenStep way;
-
-    friend bool operator==(const MaximalPiece& a, const MaximalPiece& b) {
-        return a.from == b.from && a.to == b.to && a.left == b.left && a.right == b.right;
-    }
-
-    friend bool operator<(const MaximalPiece& a, const MaximalPiece& b) {
-        if (a.from != b.from)
-            return order(a.from, b.from) < 0;
-        return a.to != b.to ? order(a.to, b.to) < 0
-                            : std::pair(a.left, a.right) < std::pair(b.left, b.right);
-    }
-};
-
-/// Joins pieces where nothing else ends.
-class Joining {
-public:
-    Joining(const ScreenScene& scene, const VisiblePieces& found) {
-        const auto source = [&](std::uint32_t triangle) {
-            return triangle == no_triangle ? no_source : scene.triangles[triangle].source;
-        };
-        for (const VisiblePiece& piece : found.pieces) {
-            const RationalPoint& from = found.points[piece.from];
-            const RationalPoint& to = found.points[piece.to];
-            const bool is_rightward = order(from, to) < 0;
-            const ScreenPoint begin = scene.vertices[piece.edge.begin].point;
-            const ScreenPoint end = scene.vertices[piece.edge.end].point;
-            MaximalPiece one = {
-                from,
-                to,
-                source(piece.left),
-                source(piece.right),
-                is_rightward ? step(begin, end) : step(end, begin)};
-            if (!is_rightward) {
-                std::swap(one.from, one.to);
-                std::swap(one.left, one.right);
-            }
-            at_[one.from].push_back(pieces_.size());
-            at_[one.to].push_back(pieces_.size());
-            pieces_.push_back(one);
-        }
-    }
-
-    /// In an order that is no matter of how they were found.
-    std::vector<MaximalPiece> result() {
-        std::vector<MaximalPiece> result;
-        for (std::size_t first = 0; first < pieces_.size(); ++first) {
-            if (neighbor(first, pieces_[first].from) != none)
-                continue;
-            MaximalPiece whole = pieces_[first];
-            for (std::size_t next = neighbor(first, whole.to); next != none;
-                 next = neighbor(next, whole.to))
-                whole.to = pieces_[next].to;
-            result.push_back(whole);
-        }
-        std::sort(result.begin(), result.end());
-        return result;
-    }
-
-private:
-    static constexpr std::size_t none = ~std::size_t{0};
-
-    /// The one that goes on straight at that end of the piece, with the same beside it.
-    std::size_t neighbor(std::size_t piece, const RationalPoint& end) {
-        const std::vector<std::size_t>& here = at_[end];
-        if (here.size() != 2)
-            return none;
-        const std::size_t other = here[0] == piece ? here[1] : here[0];
-        const MaximalPiece& a = pieces_[piece];
-        const MaximalPiece& b = pieces_[other];
-        const bool goes_on = (a.to == b.from || a.from == b.to) && cross(a.way, b.way) == 0
-            && a.left == b.left && a.right == b.right;
-        return goes_on ? other : none;
-    }
-
-    std::vector<MaximalPiece> pieces_;
-    std::map<RationalPoint, std::vector<std::size_t>, LessPoint> at_;
-};
-
-std::vector<MaximalPiece> maximal(const ScreenScene& scene, const VisiblePieces& found) {
-    return Joining(scene, found).result();
-}
+using testing::maximal_pieces;
 
 void expect_same_maps(const VisibleMap& a, const VisibleMap& b, const std::string& what) {
     ASSERT_EQ(a.rings.size(), b.rings.size()) << what;
@@ -136,8 +40,8 @@ void expect_same(const ScreenScene& scene, const std::string& what) {
     const VisiblePieces by_cells = cell_raster(scene);
     const VisiblePieces by_sweep = plane_sweep(scene);
     EXPECT_EQ(by_cells.penetrating, by_sweep.penetrating) << what;
-    const auto expected = maximal(scene, by_cells);
-    const auto found = maximal(scene, by_sweep);
+    const auto expected = maximal_pieces(scene, by_cells);
+    const auto found = maximal_pieces(scene, by_sweep);
     EXPECT_EQ(expected.size(), found.size()) << what;
     EXPECT_TRUE(expected == found) << what;
     expect_same_maps(visible_map(scene, by_sweep), visible_map(scene, by_cells), what);
@@ -257,7 +161,8 @@ TEST(PlaneSweep, SeesLikeTheCellsWholeScenes) {
         const std::string what = "scene " + std::to_string(number);
         EXPECT_EQ(whole.rounds, swept.rounds) << what;
         EXPECT_GT(whole.pieces.pieces.size(), 0U) << what;
-        EXPECT_TRUE(maximal(screen, whole.pieces) == maximal(again, swept.pieces)) << what;
+        EXPECT_TRUE(maximal_pieces(screen, whole.pieces) == maximal_pieces(again, swept.pieces))
+            << what;
         expect_same_maps(visible_map(again, swept.pieces), visible_map(screen, whole.pieces), what);
     }
 }

@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/brute_force.h"
 
-#include "vera/exact/wide_integer.h"
-
 namespace vera {
 
-namespace {
-
-/// Where the point in half steps lies: 1 within, 0 on a side, -1 outside.
 int inclusion(const std::array<ScreenVertex, 3>& corners, std::int64_t x, std::int64_t y) {
     int result = 1;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -22,13 +17,7 @@ int inclusion(const std::array<ScreenVertex, 3>& corners, std::int64_t x, std::i
     return result;
 }
 
-/// Twice the nearness there, as a fraction.
-struct Nearness {
-    Int128 numerator;
-    Int128 denominator;
-};
-
-Nearness doubled_nearness(const DepthPlane& plane, std::int64_t x, std::int64_t y) {
+DoubledNearness doubled_nearness(const DepthPlane& plane, std::int64_t x, std::int64_t y) {
     return {
         Int128{plane.area} * plane.nearness * 2
             + Int128{plane.along_x} * (x - 2 * std::int64_t{plane.at.x})
@@ -36,11 +25,9 @@ Nearness doubled_nearness(const DepthPlane& plane, std::int64_t x, std::int64_t 
         plane.area};
 }
 
-} // namespace
-
 SeenAt seen_at(const ScreenScene& scene, std::int64_t x_in_halves, std::int64_t y_in_halves) {
     SeenAt result = {no_source, 0, false};
-    Nearness best = {};
+    DoubledNearness best = {};
     for (const ScreenTriangle& triangle : scene.triangles) {
         const auto corners = corners_of(scene, triangle);
         const int included = inclusion(corners, x_in_halves, y_in_halves);
@@ -49,11 +36,9 @@ SeenAt seen_at(const ScreenScene& scene, std::int64_t x_in_halves, std::int64_t 
         result.has_side_at = result.has_side_at || included == 0;
         if (triangle.is_shadow())
             continue;
-        const Nearness here = doubled_nearness(depth_plane(corners), x_in_halves, y_in_halves);
-        const int ahead = result.source == no_source
-            ? 1
-            : sign_of_difference(
-                here.numerator, best.denominator, best.numerator, here.denominator);
+        const DoubledNearness here =
+            doubled_nearness(depth_plane(corners), x_in_halves, y_in_halves);
+        const int ahead = result.source == no_source ? 1 : order(here, best);
         if (ahead > 0 || (ahead == 0 && triangle.source < result.source)) {
             best = here;
             result.source = triangle.source;

@@ -136,6 +136,14 @@ public:
         idle_.push_back(std::move(sweep));
     }
 
+    /// Of all edges that were followed, when all have been given back.
+    CellCounts counts() const {
+        CellCounts counts;
+        for (const std::unique_ptr<EdgeSweep>& sweep : idle_)
+            counts.add_followed(sweep->counts());
+        return counts;
+    }
+
 private:
     const CellRaster& raster_;
     std::mutex mutex_;
@@ -170,7 +178,8 @@ std::vector<VisiblePieces> follow_edges(
     const CellRaster& raster,
     const VisiblePieces& before,
     const Progress& progress,
-    const CancelFlag* cancel) {
+    const CancelFlag* cancel,
+    CellCounts& counts) {
     constexpr std::size_t part = 4096; // edges
     const std::vector<ScreenEdges::Edge>& edges = raster.edges.edges;
     std::vector<VisiblePieces> parts((edges.size() + part - 1) / part);
@@ -215,6 +224,7 @@ std::vector<VisiblePieces> follow_edges(
         if (progress)
             progress(static_cast<double>(done) / static_cast<double>(parts.size()));
     });
+    counts = sweeps.counts();
     return parts;
 }
 
@@ -239,6 +249,29 @@ VisiblePieces joined(std::vector<VisiblePieces> parts) {
     return result;
 }
 
+/// Counts what was done before edges were followed, by doing it once more.
+void count_cells(const CellRaster& raster, CellCounts& counts) {
+    counts.cells = raster.cells.blocked.size();
+    counts.entries = raster.cells.triangles.size();
+    counts.edges = raster.edges.edges.size();
+    for (const ScreenTriangle& triangle : raster.scene.triangles)
+        for_each_cell_of(raster.cells, corners_of(raster.scene, triangle), [&](std::size_t) {
+            ++counts.touched;
+        });
+    const std::vector<double> nearness = nearness_of_edges(raster);
+    for (std::size_t i = 0; i < raster.edges.edges.size(); ++i) {
+        const auto& [begin, end] = raster.edges.edges[i];
+        for_each_cell_along(
+            raster.cells,
+            raster.scene.vertices[begin].point,
+            raster.scene.vertices[end].point,
+            [&](std::size_t cell) {
+                ++counts.edge_cells;
+                return nearness[i] < raster.cells.blocked[cell];
+            });
+    }
+}
+
 void sort_pairs(std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs) {
     std::sort(pairs.begin(), pairs.end());
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
@@ -246,9 +279,21 @@ void sort_pairs(std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs) {
 
 } // namespace
 
-VisiblePieces
-cell_raster(const ScreenScene& scene, const Progress& progress, const CancelFlag* cancel) {
-    std::vector<VisiblePieces> parts = follow_edges(raster_of(scene, cancel), {}, progress, cancel);
+VisiblePieces cell_raster(
+    const ScreenScene& scene,
+    const Progress& progress,
+    const CancelFlag* cancel,
+    CellCounts* counts) {
+    std::vector<VisiblePieces> parts;
+    {
+        const CellRaster raster = raster_of(scene, cancel);
+        CellCounts counted;
+        parts = follow_edges(raster, {}, progress, cancel, counted);
+        if (counts != nullptr) {
+            count_cells(raster, counted);
+            *counts = counted;
+        }
+    }
     VisiblePieces result = joined(std::move(parts));
     sort_pairs(result.penetrating);
     return result;
@@ -275,7 +320,8 @@ VisiblePieces cell_raster_after(
     {
         CellRaster raster = raster_of(scene, cancel);
         raster.is_near_change = edges_near(change, raster);
-        parts = follow_edges(raster, before, progress, cancel);
+        CellCounts uncounted;
+        parts = follow_edges(raster, before, progress, cancel, uncounted);
     }
     VisiblePieces result = joined(std::move(parts));
     for (const auto& [a, b] : before.penetrating)

@@ -3,6 +3,7 @@
 
 #include "vera/base/parallel.h"
 #include "vera/exact/screen_point.h"
+#include "vera/visible/cell_counts.h"
 #include "vera/visible/edges.h"
 #include "vera/visible/screen_scene.h"
 
@@ -38,9 +39,13 @@ struct VisiblePieces {
 /// By Franklin's cells: an edge is compared with what lies in the cells along it alone, all in
 /// exact arithmetic (A linear time exact hidden surface algorithm, 1980). The time grows in
 /// proportion to the triangles where what is hidden lies behind triangles larger than cells. The
-/// same pieces in the same order for any number of threads.
+/// same pieces in the same order for any number of threads. Where counts are asked for they are
+/// filled in.
 VisiblePieces cell_raster(
-    const ScreenScene& scene, const Progress& progress = {}, const CancelFlag* cancel = nullptr);
+    const ScreenScene& scene,
+    const Progress& progress = {},
+    const CancelFlag* cancel = nullptr,
+    CellCounts* counts = nullptr);
 
 /// What became different in a scene, whose other triangles and whose vertices kept their numbers.
 struct SceneChange {

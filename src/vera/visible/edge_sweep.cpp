@@ -37,7 +37,10 @@ void EdgeSweep::gather(std::uint32_t edge) {
         return shadowed == no_source || !candidate.is_shadow() || candidate.source == shadowed;
     };
     for_each_cell_along(raster_.cells, begin_, end_, [&](std::size_t cell) {
-        for (const std::uint32_t triangle : raster_.cells.triangles_of(cell))
+        const std::span<const std::uint32_t> here = raster_.cells.triangles_of(cell);
+        ++counts_.followed_cells;
+        counts_.looked_at += here.size();
+        for (const std::uint32_t triangle : here)
             if (stamps_[triangle] != stamp_ && does_matter(triangle)) {
                 stamps_[triangle] = stamp_;
                 candidates_.push_back(triangle);
@@ -241,6 +244,7 @@ bool EdgeSweep::ends_a_shadow() const {
 /// What is seen on the left and on the right between the events, or nothing where that is the same.
 std::array<const EdgeSweep::Cover*, 2> EdgeSweep::seen_between(double first, double last) {
     seen_.start(place_at(first), place_at(last));
+    counts_.active += active_.size();
     const bool asks_always = ends_a_shadow();
     if (!asks_always && hidden_by_ != no_cover && is_still_hidden())
         return {};
@@ -292,12 +296,15 @@ void EdgeSweep::follow(std::uint32_t edge, VisiblePieces& result) {
     touches_.clear();
     for (const std::uint32_t triangle : candidates_)
         classify(triangle);
+    ++counts_.followed;
+    counts_.candidates += candidates_.size();
     find_hidden_parts();
     if (is_hidden(beginning, ending))
         return;
     for (const Across& across : across_)
         add_across(across);
     sort_events();
+    counts_.events += events_.size();
     active_.clear();
     active_shadows_.clear();
     hidden_by_ = no_cover;

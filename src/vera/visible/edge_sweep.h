@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "vera/visible/cell_counts.h"
 #include "vera/visible/cell_raster.h"
 #include "vera/visible/cells.h"
 #include "vera/visible/seen_beside.h"
@@ -38,6 +39,13 @@ public:
         , stamps_(raster.scene.triangles.size()) {}
 
     void follow(std::uint32_t edge, VisiblePieces& result);
+
+    /// Of all edges that it followed.
+    CellCounts counts() const {
+        CellCounts counts = counts_;
+        counts.depth_orders = seen_.comparisons();
+        return counts;
+    }
 
 private:
     static constexpr std::uint32_t no_cover = ~std::uint32_t{0};
@@ -131,6 +139,7 @@ private:
     ScreenPoint begin_;
     ScreenPoint end_;
     VisiblePieces* result_ = nullptr;
+    CellCounts counts_;
 };
 
 } // namespace vera

@@ -17,6 +17,7 @@ void InclusionSet::go_up(
         VERA_CHECK(found != triangles_.end());
         changes_.push_back(
             {static_cast<std::uint32_t>(found - triangles_.begin()), border.triangle, false});
+        counts_.moved += static_cast<std::uint64_t>(triangles_.end() - found);
         triangles_.erase(found);
     }
     for (const SweepSegments::Border& border : borders) {
@@ -30,6 +31,7 @@ void InclusionSet::go_up(
         ++counts_.insertions;
         changes_.push_back(
             {static_cast<std::uint32_t>(behind - triangles_.begin()), border.triangle, true});
+        counts_.moved += static_cast<std::uint64_t>(triangles_.end() - behind);
         triangles_.insert(behind, border.triangle);
     }
     counts_.largest_set = std::max<std::uint64_t>(counts_.largest_set, triangles_.size());
@@ -46,6 +48,7 @@ void InclusionSet::take_back(std::size_t changes) {
     for (; changes_.size() > changes; changes_.pop_back()) {
         const Change& change = changes_.back();
         const auto at = triangles_.begin() + change.position;
+        counts_.moved += static_cast<std::uint64_t>(triangles_.end() - at);
         if (change.came_in)
             triangles_.erase(at);
         else

@@ -135,6 +135,7 @@ void PartFinder::look_at(
         return;
     ++counts_.looked_at;
     gather(borders, below);
+    counts_.candidates += beside_.size();
     const SeenBeside::Seen seen = seen_.find(penetrating);
     add_part(
         vertex,

@@ -17,10 +17,13 @@ struct SweepCounts {
     std::uint64_t exact_orientations = 0; ///< of these, where doubles did not suffice
     std::uint64_t comparisons = 0;        ///< of points
     std::uint64_t exact_comparisons = 0;
-    std::uint64_t insertions = 0;   ///< into inclusion sets
+    std::uint64_t insertions = 0; ///< into inclusion sets
+    std::uint64_t moved = 0; ///< entries of inclusion sets, to make place or close a gap: no step
+                             ///< of the bound, which balanced trees would keep
     std::uint64_t depth_orders = 0; ///< of two triangles
     std::uint64_t largest_set = 0;
-    std::uint64_t looked_at = 0; ///< edges that no triangle hides at first sight
+    std::uint64_t looked_at = 0;  ///< edges that no triangle hides at first sight
+    std::uint64_t candidates = 0; ///< triangles above and below these, summed up: as moved
     std::uint64_t visible_edges = 0;
 };
 
