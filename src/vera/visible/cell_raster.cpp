@@ -5,6 +5,7 @@
 #include "vera/visible/cells.h"
 #include "vera/visible/edges.h"
 #include "vera/visible/seen_beside.h"
+#include "vera/visible/shadow_cells.h"
 #include "vera/visible/sheets.h"
 
 #include <algorithm>
@@ -26,14 +27,17 @@ struct Raster {
     std::vector<NearnessSlope> slopes;
     std::vector<std::array<ScreenPoint, 3>> corners; ///< of the triangles, side by side
     ScreenEdges edges;
-    Cells cells;
+    Cells cells; ///< of surfaces
+    ShadowCells shadow_cells;
     std::vector<std::uint8_t> is_hidden; ///< edges that lie behind what covers all their cells
     std::vector<std::uint8_t> is_inner;  ///< edges between two parts of one shadow
-    /// Of edges that nothing has but shadows on one source, that source, else no_source: other
-    /// sources' shadows do not matter beside them.
+    /// Of edges that nothing has but shadows on one source, that source: other sources' shadows do
+    /// not matter beside them. no_source of those that surfaces alone have, else several_sources.
     std::vector<std::uint32_t> shadowed_source;
     std::vector<std::uint8_t> is_near_change; ///< of edges; empty: all are
 };
+
+constexpr std::uint32_t several_sources = no_source - 1;
 
 constexpr std::uint32_t no_edge = ~std::uint32_t{0};
 
@@ -97,7 +101,9 @@ public:
     void follow(std::uint32_t edge, VisiblePieces& result);
 
 private:
-    void gather(std::uint32_t edge);
+    bool gather(std::uint32_t edge);
+    template <typename List, typename DoesMatter>
+    void add_along(const List& list, const DoesMatter& does_matter);
     void add_cover(std::uint32_t triangle);
     void
     add_beside(std::uint32_t triangle, const std::array<ScreenPoint, 3>& corners, std::size_t side);
@@ -109,10 +115,14 @@ private:
     void sort_events();
     void change_active(const Event& event);
     bool ends_a_shadow() const;
+    bool ends_a_shadow_somewhere();
+    void find_seen_sources(bool is_of_surfaces);
+    bool has_one_sided() const;
     Seen seen(const Cover* nearest, std::uint8_t side) const;
     bool speaks_here(std::uint32_t edge, const Cover* left, const Cover* right) const;
     bool is_still_hidden() const;
-    std::array<const Cover*, 2> seen_between(const Event& first, const Event& last);
+    std::array<const Cover*, 2>
+    seen_between(const Event& first, const Event& last, bool asks_always);
 
     NearnessPlace place_at(double place) const {
         return {begin_.x + place * (end_.x - begin_.x), begin_.y + place * (end_.y - begin_.y)};
@@ -126,35 +136,26 @@ private:
     SeenBeside seen_;
     std::vector<std::uint32_t> stamps_; ///< of triangles: the last edge that they were gathered for
     std::uint32_t stamp_ = 0;
-    std::vector<std::uint32_t> candidates_;
     std::vector<Cover> covers_;
     std::vector<SegmentPlace> touches_; ///< where a triangle has a corner on the edge
     std::vector<Event> events_;
     std::vector<std::uint32_t> active_; ///< covers by surfaces
     std::vector<std::uint32_t> active_shadows_;
+    std::vector<std::uint32_t> seen_sources_;
     std::uint32_t hidden_by_ = no_cover; ///< on both sides of the part of the edge before
     ScreenPoint begin_;
     ScreenPoint end_;
     VisiblePieces* result_ = nullptr;
 };
 
-/// Gathers the triangles along the edge.
-void EdgeSweep::gather(std::uint32_t edge) {
-    const auto& [begin, end] = raster_.edges.edges[edge];
-    begin_ = raster_.scene.vertices[begin].point;
-    end_ = raster_.scene.vertices[end].point;
-    ++stamp_;
-    candidates_.clear();
-    const std::uint32_t shadowed = raster_.shadowed_source[edge];
-    const auto does_matter = [&](std::uint32_t triangle) {
-        const ScreenTriangle& candidate = raster_.scene.triangles[triangle];
-        return shadowed == no_source || !candidate.is_shadow() || candidate.source == shadowed;
-    };
+/// Adds those of the triangles list(cell) of the cells along the edge that matter.
+template <typename List, typename DoesMatter>
+void EdgeSweep::add_along(const List& list, const DoesMatter& does_matter) {
     for_each_cell_along(raster_.cells, begin_, end_, [&](std::size_t cell) {
-        for (const std::uint32_t triangle : raster_.cells.triangles_of(cell))
+        for (const std::uint32_t triangle : list(cell))
             if (stamps_[triangle] != stamp_ && does_matter(triangle)) {
                 stamps_[triangle] = stamp_;
-                candidates_.push_back(triangle);
+                add_cover(triangle);
             }
         return true;
     });
@@ -270,6 +271,13 @@ void EdgeSweep::change_active(const Event& event) {
         active.erase(std::find(active.begin(), active.end(), event.cover));
 }
 
+/// Whether a surface ends at the edge: else the same one is seen on both sides.
+bool EdgeSweep::has_one_sided() const {
+    return std::any_of(active_.begin(), active_.end(), [&](std::uint32_t i) {
+        return covers_[i].sides != (left_side | right_side);
+    });
+}
+
 /// Whether what hid the part of the edge before hides this one as well.
 bool EdgeSweep::is_still_hidden() const {
     bool is_there = false;
@@ -283,17 +291,91 @@ bool EdgeSweep::is_still_hidden() const {
 }
 
 /// Whether a shadow ends at the edge: other lights may reach what is seen there on its two sides.
+/// Not where another shadow of the same light on the same source goes on.
 bool EdgeSweep::ends_a_shadow() const {
+    const auto shadow = [&](std::uint32_t i) -> const ScreenTriangle& {
+        return raster_.scene.triangles[covers_[i].triangle];
+    };
+    const auto is_there = [&](std::uint32_t source) {
+        return std::any_of(active_.begin(), active_.end(), [&](std::uint32_t i) {
+            return source_of(covers_[i].triangle) == source;
+        });
+    };
+    const auto goes_on = [&](std::uint32_t i) {
+        return std::any_of(active_shadows_.begin(), active_shadows_.end(), [&](std::uint32_t j) {
+            return (covers_[j].sides & ~covers_[i].sides) != 0 && shadow(j).light == shadow(i).light
+                && shadow(j).source == shadow(i).source;
+        });
+    };
     return std::any_of(active_shadows_.begin(), active_shadows_.end(), [&](std::uint32_t i) {
-        return covers_[i].sides != (left_side | right_side);
+        return covers_[i].sides != (left_side | right_side) && is_there(shadow(i).source)
+            && !goes_on(i);
     });
 }
 
-/// What is seen on the left and on the right between the events, or nothing where that is the same.
-std::array<const Cover*, 2> EdgeSweep::seen_between(const Event& first, const Event& last) {
+/// Of one source and the shadows on it, which were added: whether one ends at the edge anywhere on
+/// the source. Where many overlap, most do not, and nothing else needs to be compared with them.
+bool EdgeSweep::ends_a_shadow_somewhere() {
+    sort_events();
+    // Of each light, how many shadows cover what is on the left and on the right.
+    std::array<std::array<std::int32_t, 2>, most_lights_of_a_set> covering = {};
+    int parted = 0;   // lights that reach but one side
+    int surfaces = 0; // of the source
+    const auto change = [&](const Event& event) {
+        const Cover& cover = covers_[event.cover];
+        const ScreenTriangle& triangle = raster_.scene.triangles[cover.triangle];
+        const int more = event.begins ? 1 : -1;
+        if (!triangle.is_shadow()) {
+            surfaces += more;
+            return;
+        }
+        auto& [left, right] = covering[triangle.light];
+        const auto is_parted = [&] { return (left > 0) != (right > 0) ? 1 : 0; };
+        parted -= is_parted();
+        left += (cover.sides & left_side) != 0 ? more : 0;
+        right += (cover.sides & right_side) != 0 ? more : 0;
+        parted += is_parted();
+    };
+    for (std::size_t i = 0; i < events_.size();) {
+        const Event& here = events_[i];
+        for (; i < events_.size() && is_at_the_same_place(here, events_[i]); ++i)
+            if (events_[i].cover != no_cover)
+                change(events_[i]);
+        if (parted > 0 && surfaces > 0)
+            return true;
+    }
+    return false;
+}
+
+/// Of the surfaces, which were added: the sources that are seen beside the edge or, of an edge of
+/// surfaces alone, where it parts them. None is where the edge is hidden, whatever shadows there
+/// are.
+void EdgeSweep::find_seen_sources(bool is_of_surfaces) {
+    seen_sources_.clear();
+    sort_events();
+    for (std::size_t i = 0; i < events_.size();) {
+        const Event& here = events_[i];
+        for (; i < events_.size() && is_at_the_same_place(here, events_[i]); ++i)
+            change_active(events_[i]);
+        if (i == events_.size())
+            break;
+        const auto [left, right] = seen_between(here, events_[i], !is_of_surfaces);
+        for (const Cover* cover : {left, right})
+            if (cover != nullptr && (left != right || !is_of_surfaces))
+                seen_sources_.push_back(source_of(cover->triangle));
+    }
+    hidden_by_ = no_cover;
+    std::sort(seen_sources_.begin(), seen_sources_.end());
+    const auto last = std::unique(seen_sources_.begin(), seen_sources_.end());
+    seen_sources_.erase(last, seen_sources_.end());
+}
+
+/// What is seen on the left and on the right between the events. Who does not always ask is told
+/// nothing where that is the same.
+std::array<const Cover*, 2>
+EdgeSweep::seen_between(const Event& first, const Event& last, bool asks_always) {
     seen_.start(place_at(first.value), place_at(last.value));
-    const bool asks_always = ends_a_shadow();
-    if (!asks_always && hidden_by_ != no_cover && is_still_hidden())
+    if (!asks_always && (!has_one_sided() || (hidden_by_ != no_cover && is_still_hidden())))
         return {};
     for (const std::uint32_t i : active_)
         seen_.add(covers_[i].triangle, covers_[i].sides);
@@ -332,19 +414,51 @@ bool EdgeSweep::speaks_here(std::uint32_t edge, const Cover* left, const Cover* 
     return edge == first;
 }
 
+/// Gathers the covers that matter for what is seen beside the edge; false where it parts nothing.
+bool EdgeSweep::gather(std::uint32_t edge) {
+    const auto& [begin, end] = raster_.edges.edges[edge];
+    begin_ = raster_.scene.vertices[begin].point;
+    end_ = raster_.scene.vertices[end].point;
+    seen_.follow(begin_, end_);
+    ++stamp_;
+    covers_.clear();
+    touches_.clear();
+    active_.clear();
+    active_shadows_.clear();
+    hidden_by_ = no_cover;
+    const auto all = [](std::uint32_t) { return true; };
+    const auto surfaces = [&](std::size_t cell) { return raster_.cells.triangles_of(cell); };
+    const auto add_shadows_on = [&](std::uint32_t source) {
+        add_along(
+            [&](std::size_t cell) {
+                return raster_.shadow_cells.shadows_on(cell, source, raster_.scene);
+            },
+            all);
+    };
+    const std::uint32_t shadowed = raster_.shadowed_source[edge];
+    const bool is_shadow = shadowed != no_source && shadowed != several_sources;
+    if (is_shadow) {
+        add_shadows_on(shadowed);
+        add_along(surfaces, [&](std::uint32_t i) { return source_of(i) == shadowed; });
+        if (!ends_a_shadow_somewhere())
+            return false;
+    }
+    add_along(surfaces, all);
+    if (is_shadow || raster_.shadow_cells.triangles.empty())
+        return true;
+    find_seen_sources(shadowed == no_source);
+    for (const std::uint32_t source : seen_sources_)
+        add_shadows_on(source);
+    return !seen_sources_.empty();
+}
+
 void EdgeSweep::follow(std::uint32_t edge, VisiblePieces& result) {
     if (raster_.is_hidden[edge] != 0 || raster_.is_inner[edge] != 0)
         return;
-    gather(edge);
     result_ = &result;
-    seen_.follow(begin_, end_);
-    covers_.clear();
-    touches_.clear();
-    for (const std::uint32_t triangle : candidates_)
-        add_cover(triangle);
+    if (!gather(edge))
+        return;
     sort_events();
-    active_.clear();
-    active_shadows_.clear();
     hidden_by_ = no_cover;
 
     struct Piece {
@@ -383,7 +497,7 @@ void EdgeSweep::follow(std::uint32_t edge, VisiblePieces& result) {
         }
         Piece piece = {here.place};
         if (next < events_.size()) {
-            const auto [left, right] = seen_between(here, events_[next]);
+            const auto [left, right] = seen_between(here, events_[next], ends_a_shadow());
             if (speaks_here(edge, left, right)) {
                 piece.left = seen(left, left_side);
                 piece.right = seen(right, right_side);
@@ -436,20 +550,20 @@ bool is_inner(const ScreenScene& scene, const EdgeNeighbours& beside) {
 }
 
 std::vector<std::uint32_t> shadowed_sources(const ScreenScene& scene, const ScreenEdges& edges) {
-    constexpr std::uint32_t several = no_source - 1;
-    std::vector<std::uint32_t> sources(edges.edges.size(), no_source);
+    constexpr std::uint32_t none = several_sources - 1;
+    std::vector<std::uint32_t> sources(edges.edges.size(), none);
     for (std::size_t i = 0; i < scene.triangles.size(); ++i)
         for (const std::uint32_t edge : edges.of_triangle[i]) {
             const ScreenTriangle& triangle = scene.triangles[i];
-            const bool is_same = sources[edge] == no_source || sources[edge] == triangle.source;
-            sources[edge] = triangle.is_shadow() && is_same ? triangle.source : several;
+            const std::uint32_t source = triangle.is_shadow() ? triangle.source : no_source;
+            const bool is_same = sources[edge] == none || sources[edge] == source;
+            sources[edge] = is_same ? source : several_sources;
         }
-    std::replace(sources.begin(), sources.end(), several, no_source);
     return sources;
 }
 
 Raster raster_of(const ScreenScene& scene, const CancelFlag* cancel) {
-    Raster raster = {scene, {}, {}, {}, {}, {}, {}, {}, {}, {}};
+    Raster raster = {scene, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
     raster.planes.resize(scene.triangles.size());
     raster.slopes.resize(scene.triangles.size());
     raster.corners.resize(scene.triangles.size());
@@ -467,6 +581,7 @@ Raster raster_of(const ScreenScene& scene, const CancelFlag* cancel) {
         raster.is_inner[i] = is_inner(scene, neighbours[i]) ? 1 : 0;
     raster.cells = cells_of(scene, raster.planes, raster.slopes, cancel);
     block_by_sheets(raster.cells, {scene, raster.edges, neighbours, raster.planes, raster.slopes});
+    raster.shadow_cells = taken_shadows(raster.cells, scene);
     const std::vector<double> nearness = nearness_of_edges(raster);
     raster.is_hidden.resize(raster.edges.edges.size());
     parallel_ranges(raster.is_hidden.size(), 4096, [&](std::size_t first, std::size_t last) {
