@@ -53,20 +53,20 @@ bool is_inner(const ScreenScene& scene, const EdgeNeighbours& beside) {
 }
 
 std::vector<std::uint32_t> shadowed_sources(const ScreenScene& scene, const ScreenEdges& edges) {
-    constexpr std::uint32_t several = no_source - 1;
-    std::vector<std::uint32_t> sources(edges.edges.size(), no_source);
+    constexpr std::uint32_t none = several_sources - 1;
+    std::vector<std::uint32_t> sources(edges.edges.size(), none);
     for (std::size_t i = 0; i < scene.triangles.size(); ++i)
         for (const std::uint32_t edge : edges.of_triangle[i]) {
             const ScreenTriangle& triangle = scene.triangles[i];
-            const bool is_same = sources[edge] == no_source || sources[edge] == triangle.source;
-            sources[edge] = triangle.is_shadow() && is_same ? triangle.source : several;
+            const std::uint32_t source = triangle.is_shadow() ? triangle.source : no_source;
+            const bool is_same = sources[edge] == none || sources[edge] == source;
+            sources[edge] = is_same ? source : several_sources;
         }
-    std::replace(sources.begin(), sources.end(), several, no_source);
     return sources;
 }
 
 CellRaster raster_of(const ScreenScene& scene, const CancelFlag* cancel) {
-    CellRaster raster = {scene, slopes_of(scene), {}, {}, {}, {}, {}, {}, {}};
+    CellRaster raster = {scene, slopes_of(scene), {}, {}, {}, {}, {}, {}, {}, {}};
     raster.corners.resize(scene.triangles.size());
     for (std::size_t i = 0; i < raster.corners.size(); ++i) {
         const std::array<ScreenVertex, 3> corners = corners_of(scene, scene.triangles[i]);
@@ -80,6 +80,7 @@ CellRaster raster_of(const ScreenScene& scene, const CancelFlag* cancel) {
         raster.is_inner[i] = is_inner(scene, neighbours[i]) ? 1 : 0;
     raster.cells = cells_of(scene, raster.slopes, cancel);
     block_by_sheets(raster.cells, {scene, raster.edges, neighbours, raster.slopes});
+    raster.shadow_cells = taken_shadows(raster.cells, scene);
     const std::vector<double> nearness = nearness_of_edges(raster);
     raster.is_hidden.resize(raster.edges.edges.size());
     parallel_ranges(raster.is_hidden.size(), 4096, [&](std::size_t first, std::size_t last) {

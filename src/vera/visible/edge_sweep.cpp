@@ -24,26 +24,18 @@ SegmentPlace clamped(SegmentPlace place) {
 
 } // namespace
 
-/// Gathers the triangles along the edge.
-void EdgeSweep::gather(std::uint32_t edge) {
-    const auto& [begin, end] = raster_.edges.edges[edge];
-    begin_ = raster_.scene.vertices[begin].point;
-    end_ = raster_.scene.vertices[end].point;
-    ++stamp_;
-    candidates_.clear();
-    const std::uint32_t shadowed = raster_.shadowed_source[edge];
-    const auto does_matter = [&](std::uint32_t triangle) {
-        const ScreenTriangle& candidate = raster_.scene.triangles[triangle];
-        return shadowed == no_source || !candidate.is_shadow() || candidate.source == shadowed;
-    };
+/// Tells how those of the triangles list(cell) of the cells along the edge that matter lie to it.
+template <typename List, typename DoesMatter>
+void EdgeSweep::classify_along(const List& list, const DoesMatter& does_matter) {
     for_each_cell_along(raster_.cells, begin_, end_, [&](std::size_t cell) {
-        const std::span<const std::uint32_t> here = raster_.cells.triangles_of(cell);
+        const std::span<const std::uint32_t> here = list(cell);
         ++counts_.followed_cells;
         counts_.looked_at += here.size();
         for (const std::uint32_t triangle : here)
             if (stamps_[triangle] != stamp_ && does_matter(triangle)) {
                 stamps_[triangle] = stamp_;
-                candidates_.push_back(triangle);
+                ++counts_.candidates;
+                classify(triangle);
             }
         return true;
     });
@@ -152,8 +144,8 @@ void EdgeSweep::find_hidden_parts() {
         return raster_.scene.triangles[triangle].is_shadow();
     };
     for (const Cover& cover : covers_) {
-        if (is_shadow(cover.triangle))
-            return; // it may end here
+        if (cover.is_on_both_sides())
+            continue;
         const NearnessSlope& slope = raster_.slopes[cover.triangle];
         for (std::size_t i = 0; i < 2; ++i)
             to_hide[i] = std::max(to_hide[i], slope.at(ends[i]) + sure_margin(slope));
@@ -200,11 +192,24 @@ void EdgeSweep::sort_events() {
     }
     for (std::uint32_t i = 0; i < touches_.size(); ++i)
         events_.push_back({touches_[i].value(), i, Event::touches});
+    counts_.events += events_.size();
     std::sort(events_.begin(), events_.end(), [&](const Event& a, const Event& b) {
         if (std::abs(a.value - b.value) > surely_apart)
             return a.value < b.value;
         return order(place_of(a), place_of(b)) < 0;
     });
+}
+
+/// Before the first event.
+void EdgeSweep::start_events() {
+    active_.clear();
+    active_shadows_.clear();
+    hidden_by_ = no_cover;
+    is_hidden_here_ = false;
+}
+
+bool EdgeSweep::are_at_the_same_place(const Event& a, const Event& b) const {
+    return std::abs(a.value - b.value) <= surely_apart && order(place_of(a), place_of(b)) == 0;
 }
 
 void EdgeSweep::change_active(const Event& event) {
@@ -222,6 +227,13 @@ void EdgeSweep::change_active(const Event& event) {
         active.erase(std::find(active.begin(), active.end(), event.number));
 }
 
+/// Whether a surface ends at the edge: else the same one is seen on both sides.
+bool EdgeSweep::has_one_sided() const {
+    return std::any_of(active_.begin(), active_.end(), [&](std::uint32_t i) {
+        return !covers_[i].is_on_both_sides();
+    });
+}
+
 /// Whether what hid the part of the edge before hides this one as well.
 bool EdgeSweep::is_still_hidden() const {
     bool is_there = false;
@@ -235,18 +247,93 @@ bool EdgeSweep::is_still_hidden() const {
 }
 
 /// Whether a shadow ends at the edge: other lights may reach what is seen there on its two sides.
+/// Not where another shadow of the same light on the same source goes on.
 bool EdgeSweep::ends_a_shadow() const {
+    const auto shadow = [&](std::uint32_t i) -> const ScreenTriangle& {
+        return raster_.scene.triangles[covers_[i].triangle];
+    };
+    const auto is_there = [&](std::uint32_t source) {
+        return std::any_of(active_.begin(), active_.end(), [&](std::uint32_t i) {
+            return source_of(covers_[i].triangle) == source;
+        });
+    };
+    const auto goes_on = [&](std::uint32_t i) {
+        return std::any_of(active_shadows_.begin(), active_shadows_.end(), [&](std::uint32_t j) {
+            return (covers_[j].sides & ~covers_[i].sides) != 0 && shadow(j).light == shadow(i).light
+                && shadow(j).source == shadow(i).source;
+        });
+    };
     return std::any_of(active_shadows_.begin(), active_shadows_.end(), [&](std::uint32_t i) {
-        return !covers_[i].is_on_both_sides();
+        return !covers_[i].is_on_both_sides() && is_there(shadow(i).source) && !goes_on(i);
     });
 }
 
-/// What is seen on the left and on the right between the events, or nothing where that is the same.
-std::array<const EdgeSweep::Cover*, 2> EdgeSweep::seen_between(double first, double last) {
+/// Of one source and the shadows on it, which were added: whether one ends at the edge anywhere on
+/// the source. Where many overlap, most do not, and nothing else needs to be compared with them.
+bool EdgeSweep::ends_a_shadow_somewhere() {
+    sort_events();
+    // Of each light, how many shadows cover what is on the left and on the right.
+    std::array<std::array<std::int32_t, 2>, most_lights_of_a_set> covering = {};
+    int parted = 0;   // lights that reach but one side
+    int surfaces = 0; // of the source
+    const auto change = [&](const Event& event) {
+        const Cover& cover = covers_[event.number];
+        const ScreenTriangle& triangle = raster_.scene.triangles[cover.triangle];
+        const int more = event.kind == Event::begins ? 1 : -1;
+        if (!triangle.is_shadow()) {
+            surfaces += more;
+            return;
+        }
+        auto& [left, right] = covering[triangle.light];
+        const auto is_parted = [&] { return (left > 0) != (right > 0) ? 1 : 0; };
+        parted -= is_parted();
+        left += (cover.sides & left_side) != 0 ? more : 0;
+        right += (cover.sides & right_side) != 0 ? more : 0;
+        parted += is_parted();
+    };
+    for (std::size_t i = 0; i < events_.size();) {
+        const Event& here = events_[i];
+        for (; i < events_.size() && are_at_the_same_place(here, events_[i]); ++i)
+            if (events_[i].kind != Event::touches)
+                change(events_[i]);
+        if (parted > 0 && surfaces > 0)
+            return true;
+    }
+    return false;
+}
+
+/// Of the surfaces, which were added: the sources that are seen beside the edge or, of an edge of
+/// surfaces alone, where it parts them. None is where the edge is hidden, whatever shadows there
+/// are.
+void EdgeSweep::find_seen_sources(bool is_of_surfaces) {
+    seen_sources_.clear();
+    sort_events();
+    start_events();
+    for (std::size_t i = 0; i < events_.size();) {
+        const Event& here = events_[i];
+        for (; i < events_.size() && are_at_the_same_place(here, events_[i]); ++i)
+            change_active(events_[i]);
+        if (i == events_.size())
+            break;
+        if (is_hidden_here_)
+            continue;
+        const auto [left, right] = seen_between(here.value, events_[i].value, !is_of_surfaces);
+        for (const Cover* cover : {left, right})
+            if (cover != nullptr && (left != right || !is_of_surfaces))
+                seen_sources_.push_back(source_of(cover->triangle));
+    }
+    std::sort(seen_sources_.begin(), seen_sources_.end());
+    const auto last = std::unique(seen_sources_.begin(), seen_sources_.end());
+    seen_sources_.erase(last, seen_sources_.end());
+}
+
+/// What is seen on the left and on the right between the places. Who does not always ask is told
+/// nothing where that is the same.
+std::array<const EdgeSweep::Cover*, 2>
+EdgeSweep::seen_between(double first, double last, bool asks_always) {
     seen_.start(place_at(first), place_at(last));
     counts_.active += active_.size();
-    const bool asks_always = ends_a_shadow();
-    if (!asks_always && hidden_by_ != no_cover && is_still_hidden())
+    if (!asks_always && (!has_one_sided() || (hidden_by_ != no_cover && is_still_hidden())))
         return {};
     for (const std::uint32_t i : active_)
         seen_.add(covers_[i].triangle, covers_[i].sides);
@@ -285,30 +372,67 @@ bool EdgeSweep::speaks_here(std::uint32_t edge, const Cover* left, const Cover* 
     return edge == first;
 }
 
+void EdgeSweep::add_all_across() {
+    for (const Across& across : across_)
+        add_across(across);
+    across_.clear();
+}
+
+/// Gathers the covers that matter for what is seen beside the edge; false where it parts nothing.
+bool EdgeSweep::gather(std::uint32_t edge) {
+    const auto& [begin, end] = raster_.edges.edges[edge];
+    begin_ = raster_.scene.vertices[begin].point;
+    end_ = raster_.scene.vertices[end].point;
+    seen_.follow(begin_, end_);
+    ++stamp_;
+    ++counts_.followed;
+    across_.clear();
+    covers_.clear();
+    touches_.clear();
+    first_hidden_ = last_hidden_ = 0;
+    const auto all = [](std::uint32_t) { return true; };
+    const auto surfaces = [&](std::size_t cell) { return raster_.cells.triangles_of(cell); };
+    const auto add_shadows_on = [&](std::uint32_t source) {
+        classify_along(
+            [&](std::size_t cell) {
+                return raster_.shadow_cells.shadows_on(cell, source, raster_.scene);
+            },
+            all);
+        add_all_across();
+    };
+    const std::uint32_t shadowed = raster_.shadowed_source[edge];
+    const bool is_of_surfaces = shadowed == no_source;
+    const bool is_of_shadows = !is_of_surfaces && shadowed != several_sources;
+    if (is_of_shadows) {
+        add_shadows_on(shadowed);
+        classify_along(surfaces, [&](std::uint32_t i) { return source_of(i) == shadowed; });
+        add_all_across();
+        if (!ends_a_shadow_somewhere())
+            return false;
+    }
+    classify_along(surfaces, all);
+    if (shadowed != several_sources) {
+        find_hidden_parts();
+        if (is_hidden(beginning, ending))
+            return false;
+    }
+    add_all_across();
+    if (is_of_shadows || raster_.shadow_cells.triangles.empty())
+        return true;
+    find_seen_sources(is_of_surfaces);
+    for (const std::uint32_t source : seen_sources_)
+        add_shadows_on(source);
+    return !seen_sources_.empty();
+}
+
 void EdgeSweep::follow(std::uint32_t edge, VisiblePieces& result) {
     if (raster_.is_hidden[edge] != 0 || raster_.is_inner[edge] != 0)
         return;
-    gather(edge);
     result_ = &result;
-    seen_.follow(begin_, end_);
-    covers_.clear();
-    across_.clear();
-    touches_.clear();
-    for (const std::uint32_t triangle : candidates_)
-        classify(triangle);
-    ++counts_.followed;
-    counts_.candidates += candidates_.size();
-    find_hidden_parts();
-    if (is_hidden(beginning, ending))
+    if (!gather(edge))
         return;
-    for (const Across& across : across_)
-        add_across(across);
     sort_events();
-    counts_.events += events_.size();
-    active_.clear();
-    active_shadows_.clear();
-    hidden_by_ = no_cover;
-    is_hidden_here_ = false;
+    start_events();
 
     struct Piece {
         SegmentPlace first;
@@ -336,9 +460,6 @@ void EdgeSweep::follow(std::uint32_t edge, VisiblePieces& result) {
              open.left.unlit,
              open.right.unlit});
     };
-    const auto are_at_the_same_place = [&](const Event& a, const Event& b) {
-        return std::abs(a.value - b.value) <= surely_apart && order(place_of(a), place_of(b)) == 0;
-    };
     for (std::size_t i = 0; i < events_.size();) {
         const Event& here = events_[i];
         std::size_t next = i;
@@ -351,7 +472,8 @@ void EdgeSweep::follow(std::uint32_t edge, VisiblePieces& result) {
         }
         Piece piece = {place_of(here)};
         if (next < events_.size() && !is_hidden_here_) {
-            const auto [left, right] = seen_between(here.value, events_[next].value);
+            const auto [left, right] =
+                seen_between(here.value, events_[next].value, ends_a_shadow());
             if (speaks_here(edge, left, right)) {
                 piece.left = seen(left, left_side);
                 piece.right = seen(right, right_side);

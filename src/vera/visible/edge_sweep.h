@@ -5,6 +5,7 @@
 #include "vera/visible/cell_raster.h"
 #include "vera/visible/cells.h"
 #include "vera/visible/seen_beside.h"
+#include "vera/visible/shadow_cells.h"
 
 #include <array>
 #include <cstddef>
@@ -19,14 +20,17 @@ struct CellRaster {
     std::vector<NearnessSlope> slopes;
     std::vector<std::array<ScreenPoint, 3>> corners; ///< of the triangles, side by side
     ScreenEdges edges;
-    Cells cells;
+    Cells cells; ///< of surfaces
+    ShadowCells shadow_cells;
     std::vector<std::uint8_t> is_hidden; ///< edges that lie behind what covers all their cells
     std::vector<std::uint8_t> is_inner;  ///< edges between two parts of one shadow
-    /// Of edges that nothing has but shadows on one source, that source, else no_source: other
-    /// sources' shadows do not matter beside them.
+    /// Of edges that nothing has but shadows on one source, that source: other sources' shadows do
+    /// not matter beside them. no_source of those that surfaces alone have, else several_sources.
     std::vector<std::uint32_t> shadowed_source;
     std::vector<std::uint8_t> is_near_change; ///< of edges; empty: all are
 };
+
+constexpr std::uint32_t several_sources = no_source - 1;
 
 constexpr std::uint32_t no_edge = ~std::uint32_t{0};
 
@@ -85,21 +89,29 @@ private:
         friend bool operator==(const Seen&, const Seen&) = default;
     };
 
-    void gather(std::uint32_t edge);
+    bool gather(std::uint32_t edge);
+    template <typename List, typename DoesMatter>
+    void classify_along(const List& list, const DoesMatter& does_matter);
     void classify(std::uint32_t triangle);
     void
     add_beside(std::uint32_t triangle, const std::array<ScreenPoint, 3>& corners, std::size_t side);
     void add_across(const Across& across);
+    void add_all_across();
     void add_touch(ScreenPoint corner);
     void find_hidden_parts();
     bool is_hidden(SegmentPlace first, SegmentPlace last) const;
     void sort_events();
+    void start_events();
+    bool are_at_the_same_place(const Event& a, const Event& b) const;
     void change_active(const Event& event);
+    bool has_one_sided() const;
     bool ends_a_shadow() const;
+    bool ends_a_shadow_somewhere();
+    void find_seen_sources(bool is_of_surfaces);
     Seen seen(const Cover* nearest, std::uint8_t side) const;
     bool speaks_here(std::uint32_t edge, const Cover* left, const Cover* right) const;
     bool is_still_hidden() const;
-    std::array<const Cover*, 2> seen_between(double first, double last);
+    std::array<const Cover*, 2> seen_between(double first, double last, bool asks_always);
 
     const SegmentPlace& place_of(const Event& event) const {
         switch (event.kind) {
@@ -125,13 +137,13 @@ private:
     SeenBeside seen_;
     std::vector<std::uint32_t> stamps_; ///< of triangles: the last edge that they were gathered for
     std::uint32_t stamp_ = 0;
-    std::vector<std::uint32_t> candidates_;
     std::vector<Across> across_;
     std::vector<Cover> covers_;
     std::vector<SegmentPlace> touches_; ///< where a triangle has a corner on the edge
     std::vector<Event> events_;
     std::vector<std::uint32_t> active_; ///< covers by surfaces
     std::vector<std::uint32_t> active_shadows_;
+    std::vector<std::uint32_t> seen_sources_;
     std::size_t first_hidden_ = 0;       ///< of the covers by no triangle
     std::size_t last_hidden_ = 0;        ///< behind them
     bool is_hidden_here_ = false;        ///< the part of the edge at hand
