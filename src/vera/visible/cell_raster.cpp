@@ -65,36 +65,12 @@ std::vector<std::uint32_t> shadowed_sources(const ScreenScene& scene, const Scre
     return sources;
 }
 
-CellRaster raster_of(const ScreenScene& scene, const CancelFlag* cancel) {
-    CellRaster raster = {scene, slopes_of(scene), {}, {}, {}, {}, {}, {}, {}, {}};
-    raster.corners.resize(scene.triangles.size());
-    for (std::size_t i = 0; i < raster.corners.size(); ++i) {
-        const std::array<ScreenVertex, 3> corners = corners_of(scene, scene.triangles[i]);
-        raster.corners[i] = {corners[0].point, corners[1].point, corners[2].point};
-    }
-    raster.edges = screen_edges(scene);
-    raster.shadowed_source = shadowed_sources(scene, raster.edges);
-    const std::vector<EdgeNeighbours> neighbours = edge_neighbours(scene, raster.edges);
-    raster.is_inner.resize(neighbours.size());
-    for (std::size_t i = 0; i < neighbours.size(); ++i)
-        raster.is_inner[i] = is_inner(scene, neighbours[i]) ? 1 : 0;
-    raster.cells = cells_of(scene, raster.slopes, cancel);
-    block_by_sheets(raster.cells, {scene, raster.edges, neighbours, raster.slopes});
-    raster.shadow_cells = taken_shadows(raster.cells, scene);
-    const std::vector<double> nearness = nearness_of_edges(raster);
-    raster.is_hidden.resize(raster.edges.edges.size());
-    parallel_ranges(raster.is_hidden.size(), 4096, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i)
-            raster.is_hidden[i] = is_hidden(raster, raster.edges.edges[i], nearness[i]) ? 1 : 0;
-    });
-    return raster;
-}
-
 /// Which edges lie in a cell that what was changed touches, or did.
-std::vector<std::uint8_t> edges_near(const SceneChange& change, const CellRaster& raster) {
-    std::vector<std::uint8_t> is_changed(raster.cells.blocked.size());
+std::vector<std::uint8_t>
+edges_near(const SceneChange& change, const CellRaster& raster, const Cells& cells) {
+    std::vector<std::uint8_t> is_changed(cells.blocked.size());
     const auto mark = [&](const std::array<ScreenVertex, 3>& corners) {
-        for_each_cell_of(raster.cells, corners, [&](std::size_t cell) { is_changed[cell] = 1; });
+        for_each_cell_of(cells, corners, [&](std::size_t cell) { is_changed[cell] = 1; });
     };
     for (const std::uint32_t triangle : change.triangles)
         mark(corners_of(raster.scene, raster.scene.triangles[triangle]));
@@ -108,13 +84,66 @@ std::vector<std::uint8_t> edges_near(const SceneChange& change, const CellRaster
             };
             const auto& [begin, end] = raster.edges.edges[i];
             const bool is_far =
-                for_each_cell_along(raster.cells, point(begin), point(end), [&](std::size_t cell) {
+                for_each_cell_along(cells, point(begin), point(end), [&](std::size_t cell) {
                     return is_changed[cell] == 0;
                 });
             near[i] = is_far ? 0 : 1;
         }
     });
     return near;
+}
+
+/// The cells along the edges.
+std::vector<std::uint8_t> cells_along(
+    const std::vector<std::uint8_t>& is_edge_asked, const CellRaster& raster, const Cells& cells) {
+    std::vector<std::uint8_t> is_asked(cells.blocked.size());
+    for (std::size_t i = 0; i < is_edge_asked.size(); ++i) {
+        if (is_edge_asked[i] == 0)
+            continue;
+        const auto& [begin, end] = raster.edges.edges[i];
+        for_each_cell_along(
+            cells,
+            raster.scene.vertices[begin].point,
+            raster.scene.vertices[end].point,
+            [&](std::size_t cell) {
+                is_asked[cell] = 1;
+                return true;
+            });
+    }
+    return is_asked;
+}
+
+/// Of the whole scene or, where only that was changed, for the edges near it.
+CellRaster
+raster_of(const ScreenScene& scene, const SceneChange* change, const CancelFlag* cancel) {
+    CellRaster raster = {scene, slopes_of(scene), {}, {}, {}, {}, {}, {}, {}, {}};
+    raster.corners.resize(scene.triangles.size());
+    for (std::size_t i = 0; i < raster.corners.size(); ++i) {
+        const std::array<ScreenVertex, 3> corners = corners_of(scene, scene.triangles[i]);
+        raster.corners[i] = {corners[0].point, corners[1].point, corners[2].point};
+    }
+    raster.edges = screen_edges(scene);
+    raster.shadowed_source = shadowed_sources(scene, raster.edges);
+    const std::vector<EdgeNeighbours> neighbours = edge_neighbours(scene, raster.edges);
+    raster.is_inner.resize(neighbours.size());
+    for (std::size_t i = 0; i < neighbours.size(); ++i)
+        raster.is_inner[i] = is_inner(scene, neighbours[i]) ? 1 : 0;
+    AskedCells asked;
+    if (change != nullptr)
+        asked = [&](const Cells& cells) {
+            raster.is_near_change = edges_near(*change, raster, cells);
+            return cells_along(raster.is_near_change, raster, cells);
+        };
+    raster.cells = cells_of(scene, raster.slopes, cancel, asked);
+    block_by_sheets(raster.cells, {scene, raster.edges, neighbours, raster.slopes});
+    raster.shadow_cells = taken_shadows(raster.cells, scene);
+    const std::vector<double> nearness = nearness_of_edges(raster);
+    raster.is_hidden.resize(raster.edges.edges.size());
+    parallel_ranges(raster.is_hidden.size(), 4096, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+            raster.is_hidden[i] = is_hidden(raster, raster.edges.edges[i], nearness[i]) ? 1 : 0;
+    });
+    return raster;
 }
 
 /// Lends one EdgeSweep to each thread that works.
@@ -287,7 +316,7 @@ VisiblePieces cell_raster(
     CellCounts* counts) {
     std::vector<VisiblePieces> parts;
     {
-        const CellRaster raster = raster_of(scene, cancel);
+        const CellRaster raster = raster_of(scene, nullptr, cancel);
         CellCounts counted;
         parts = follow_edges(raster, {}, progress, cancel, counted);
         if (counts != nullptr) {
@@ -319,8 +348,7 @@ VisiblePieces cell_raster_after(
     }
     std::vector<VisiblePieces> parts;
     {
-        CellRaster raster = raster_of(scene, cancel);
-        raster.is_near_change = edges_near(change, raster);
+        const CellRaster raster = raster_of(scene, &change, cancel);
         CellCounts uncounted;
         parts = follow_edges(raster, before, progress, cancel, uncounted);
     }

@@ -45,7 +45,10 @@ int shift_for(std::size_t triangles) {
 class CellLists {
 public:
     CellLists(
-        const ScreenScene& scene, std::span<const NearnessSlope> slopes, const CancelFlag* cancel);
+        const ScreenScene& scene,
+        std::span<const NearnessSlope> slopes,
+        const CancelFlag* cancel,
+        const AskedCells& asked);
 
     Cells cells();
 
@@ -68,20 +71,28 @@ private:
     void for_each_entry(const Cells& cells, const Visit& visit) const;
 
     void block(Cells& cells) const;
-    std::uint64_t count(Cells& cells) const;
+    std::uint64_t count(Cells& cells);
+
+    bool is_asked(std::size_t cell) const { return is_asked_.empty() || is_asked_[cell] != 0; }
 
     const ScreenScene& scene_;
     std::span<const NearnessSlope> slopes_;
     const CancelFlag* cancel_;
-    std::vector<double> nearness_; ///< of triangles, for hiding
-    std::vector<Reach> reaches_;   ///< of groups
+    const AskedCells& asked_;
+    std::vector<std::uint8_t> is_asked_; ///< of cells; empty: all are
+    std::vector<double> nearness_;       ///< of triangles, for hiding
+    std::vector<Reach> reaches_;         ///< of groups
 };
 
 CellLists::CellLists(
-    const ScreenScene& scene, std::span<const NearnessSlope> slopes, const CancelFlag* cancel)
+    const ScreenScene& scene,
+    std::span<const NearnessSlope> slopes,
+    const CancelFlag* cancel,
+    const AskedCells& asked)
     : scene_(scene)
     , slopes_(slopes)
     , cancel_(cancel)
+    , asked_(asked)
     , nearness_(scene.triangles.size())
     , reaches_((scene.triangles.size() + group - 1) / group) {
     parallel_ranges(reaches_.size(), 64, [&](std::size_t first, std::size_t last) {
@@ -134,7 +145,7 @@ void CellLists::for_each_entry(const Cells& cells, const Visit& visit) const {
         [&](std::uint32_t i, std::int32_t row, const RowOfCells& found) {
             for (std::int32_t j = found.touched.first; j <= found.touched.last; ++j)
                 if (const std::size_t cell = cells.number(j, row);
-                    nearness_[i] >= cells.blocked[cell])
+                    is_asked(cell) && nearness_[i] >= cells.blocked[cell])
                     visit(cell, i);
         });
 }
@@ -148,7 +159,10 @@ void CellLists::block(Cells& cells) const {
             if (scene_.triangles[i].is_shadow())
                 return;
             for (std::int32_t j = found.covered.first; j <= found.covered.last; ++j) {
-                double& blocked = cells.blocked[cells.number(j, row)];
+                const std::size_t cell = cells.number(j, row);
+                if (!is_asked(cell))
+                    continue;
+                double& blocked = cells.blocked[cell];
                 const ScreenPoint lower = {j << cells.shift, row << cells.shift};
                 blocked = std::max(
                     blocked, least_nearness(cells, slopes_[i], lower) - hidden_margin(slopes_[i]));
@@ -158,12 +172,13 @@ void CellLists::block(Cells& cells) const {
 
 /// Blocks cells of that size, and counts the triangles of each into starts, two places farther on;
 /// returns how many there are in all.
-std::uint64_t CellLists::count(Cells& cells) const {
+std::uint64_t CellLists::count(Cells& cells) {
     cells.per_side = std::int32_t{1} << (screen_bits - cells.shift);
     const std::size_t number =
         static_cast<std::size_t>(cells.per_side) * static_cast<std::size_t>(cells.per_side);
     cells.blocked.assign(number, -1);
     cells.starts.assign(number + 2, 0);
+    is_asked_ = asked_ ? asked_(cells) : std::vector<std::uint8_t>();
     block(cells);
     for_each_entry(cells, [&](std::size_t cell, std::uint32_t) { ++cells.starts[cell + 2]; });
     return std::accumulate(cells.starts.begin(), cells.starts.end(), std::uint64_t{0});
@@ -256,8 +271,11 @@ RowOfCells RowsOfCells::next() {
 }
 
 Cells cells_of(
-    const ScreenScene& scene, std::span<const NearnessSlope> slopes, const CancelFlag* cancel) {
-    return CellLists(scene, slopes, cancel).cells();
+    const ScreenScene& scene,
+    std::span<const NearnessSlope> slopes,
+    const CancelFlag* cancel,
+    const AskedCells& asked) {
+    return CellLists(scene, slopes, cancel, asked).cells();
 }
 
 Cells cells_of(const ScreenScene& scene, const CancelFlag* cancel) {

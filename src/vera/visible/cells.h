@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <span>
 #include <vector>
@@ -114,12 +115,17 @@ void for_each_cell_of(
     });
 }
 
+/// Tells of cells, which have no lists yet, which ones are asked for.
+using AskedCells = std::function<std::vector<std::uint8_t>(const Cells&)>;
+
 /// slopes[i] is that of triangle i. Where many triangles lie one behind the other
 /// there are fewer cells, so that the lists stay in proportion to the triangles.
+/// Cells that are not asked for have empty lists and block nothing.
 Cells cells_of(
     const ScreenScene& scene,
     std::span<const NearnessSlope> slopes,
-    const CancelFlag* cancel = nullptr);
+    const CancelFlag* cancel = nullptr,
+    const AskedCells& asked = {});
 
 /// The same where slopes are not needed otherwise.
 Cells cells_of(const ScreenScene& scene, const CancelFlag* cancel = nullptr);
