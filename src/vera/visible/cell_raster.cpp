@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/cell_raster.h"
 
+#include "vera/base/long_loop.h"
+#include "vera/base/progress_part.h"
 #include "vera/exact/front_order.h"
 #include "vera/visible/cells.h"
+#include "vera/visible/drawing_memory.h"
 #include "vera/visible/edges.h"
 #include "vera/visible/seen_beside.h"
 #include "vera/visible/sheets.h"
@@ -448,7 +451,17 @@ std::vector<std::uint32_t> shadowed_sources(const ScreenScene& scene, const Scre
     return sources;
 }
 
-Raster raster_of(const ScreenScene& scene, const CancelFlag* cancel) {
+/// How much of the time goes into what all edges are compared with.
+constexpr double part_of_preparation = 0.2;
+
+Raster raster_of(const ScreenScene& scene, const Progress& progress, const CancelFlag* cancel) {
+    StageProgress stages(progress_between(progress, 0, part_of_preparation), 6);
+    const auto next_stage = [&] {
+        stop_if_raised(cancel);
+        stages.next(1);
+    };
+    next_stage();
+    require_raster_memory(scene);
     Raster raster = {scene, {}, {}, {}, {}, {}, {}, {}, {}, {}};
     raster.planes.resize(scene.triangles.size());
     raster.slopes.resize(scene.triangles.size());
@@ -459,17 +472,24 @@ Raster raster_of(const ScreenScene& scene, const CancelFlag* cancel) {
         raster.slopes[i] = nearness_slope(raster.planes[i]);
         raster.corners[i] = {corners[0].point, corners[1].point, corners[2].point};
     }
+    next_stage();
     raster.edges = screen_edges(scene);
+    next_stage();
     raster.shadowed_source = shadowed_sources(scene, raster.edges);
     const std::vector<EdgeNeighbours> neighbours = edge_neighbours(scene, raster.edges);
     raster.is_inner.resize(neighbours.size());
     for (std::size_t i = 0; i < neighbours.size(); ++i)
         raster.is_inner[i] = is_inner(scene, neighbours[i]) ? 1 : 0;
+    next_stage();
     raster.cells = cells_of(scene, raster.planes, raster.slopes, cancel);
-    block_by_sheets(raster.cells, {scene, raster.edges, neighbours, raster.planes, raster.slopes});
+    next_stage();
+    block_by_sheets(
+        raster.cells, {scene, raster.edges, neighbours, raster.planes, raster.slopes}, cancel);
+    next_stage();
     const std::vector<double> nearness = nearness_of_edges(raster);
     raster.is_hidden.resize(raster.edges.edges.size());
     parallel_ranges(raster.is_hidden.size(), 4096, [&](std::size_t first, std::size_t last) {
+        stop_if_raised(cancel);
         for (std::size_t i = first; i < last; ++i)
             raster.is_hidden[i] = is_hidden(raster, raster.edges.edges[i], nearness[i]) ? 1 : 0;
     });
@@ -529,6 +549,93 @@ private:
     std::vector<std::unique_ptr<EdgeSweep>> idle_;
 };
 
+/// An edge, and how many marks at equal distances lie on it where all edges are laid end to end.
+struct MarkedEdge {
+    std::uint32_t edge = 0;
+    double marks = 0;
+    double weight = 0; ///< about as many cells as it touches
+};
+
+/// One edge of 256 or so, but enough of them in any case: long ones more often, since more can
+/// cross them.
+std::vector<MarkedEdge> marked_edges(const Raster& raster, double& distance) {
+    constexpr double least_marks = 512;
+    constexpr double edges_per_mark = 256;
+    const auto weight_of = [&](const ScreenEdges::Edge& edge) {
+        const ScreenStep along =
+            step(raster.scene.vertices[edge.begin].point, raster.scene.vertices[edge.end].point);
+        return 1
+            + static_cast<double>(std::abs(along.x) + std::abs(along.y))
+            / std::ldexp(1.0, raster.cells.shift);
+    };
+    const std::vector<ScreenEdges::Edge>& edges = raster.edges.edges;
+    double whole = 0;
+    for (const ScreenEdges::Edge& edge : edges)
+        whole += weight_of(edge);
+    distance = whole / std::max(least_marks, static_cast<double>(edges.size()) / edges_per_mark);
+    std::vector<MarkedEdge> marked;
+    double next = distance / 2;
+    double end = 0;
+    for (std::uint32_t i = 0; i < edges.size(); ++i) {
+        const double weight = weight_of(edges[i]);
+        end += weight;
+        if (next >= end)
+            continue;
+        const double marks = std::floor((end - next) / distance) + 1;
+        next += marks * distance;
+        marked.push_back({i, marks, weight});
+    }
+    return marked;
+}
+
+/// About how much will be found.
+struct Expected {
+    double pieces = 0;
+    double pairs = 0; ///< that pass through each other, as often as edges tell them
+};
+
+/// From a few edges (systematic sampling, in proportion to their lengths).
+Expected expected(const Raster& raster, EdgeSweeps& sweeps, const CancelFlag* cancel) {
+    double distance = 0;
+    const std::vector<MarkedEdge> marked = marked_edges(raster, distance);
+    std::vector<Expected> found(marked.size());
+    parallel_ranges(marked.size(), 16, [&](std::size_t first, std::size_t last) {
+        stop_if_raised(cancel);
+        std::unique_ptr<EdgeSweep> sweep = sweeps.take();
+        for (std::size_t i = first; i < last; ++i) {
+            VisiblePieces pieces;
+            sweep->follow(marked[i].edge, pieces);
+            found[i] = {
+                static_cast<double>(pieces.pieces.size()),
+                static_cast<double>(pieces.penetrating.size())};
+        }
+        sweeps.give_back(std::move(sweep));
+    });
+    Expected all;
+    for (std::size_t i = 0; i < marked.size(); ++i) {
+        const double edges = distance * marked[i].marks / marked[i].weight; // that it stands for
+        all.pieces += edges * found[i].pieces;
+        all.pairs += edges * found[i].pairs;
+    }
+    return all;
+}
+
+/// Of so few edges there are never so many pieces that memory could run out.
+constexpr std::size_t few_edges = 1024;
+
+void check_memory(
+    const Raster& raster,
+    EdgeSweeps& sweeps,
+    const ExpectPieces& expect,
+    const CancelFlag* cancel) {
+    if (raster.edges.edges.size() < few_edges)
+        return;
+    const auto [pieces, pairs] = expected(raster, sweeps, cancel);
+    require_piece_memory(pieces, pairs);
+    if (expect)
+        expect(pieces);
+}
+
 /// Of the pieces before, those of edges from this one on.
 auto first_piece_of(const std::vector<VisiblePiece>& before, ScreenEdges::Edge edge) {
     return std::lower_bound(
@@ -544,20 +651,22 @@ auto first_piece_of(const std::vector<VisiblePiece>& before, ScreenEdges::Edge e
 VisiblePieces follow_edges(
     const Raster& raster,
     const std::vector<VisiblePiece>& before,
+    const ExpectPieces& expect,
     const Progress& progress,
     const CancelFlag* cancel) {
     constexpr std::size_t part = 4096; // edges
     const std::vector<ScreenEdges::Edge>& edges = raster.edges.edges;
     std::vector<VisiblePieces> parts((edges.size() + part - 1) / part);
     EdgeSweeps sweeps(raster);
+    check_memory(raster, sweeps, expect, cancel);
     std::mutex mutex;
     std::size_t done = 0;
     const auto follow_part = [&](std::size_t number, EdgeSweep& sweep) {
         const std::size_t end = std::min(edges.size(), (number + 1) * part);
         auto kept = first_piece_of(before, edges[number * part]);
         for (std::size_t i = number * part; i < end; ++i) {
-            if (cancel != nullptr && i % 16 == 0)
-                cancel->throw_if_raised();
+            if (i % 16 == 0)
+                stop_if_raised(cancel);
             const bool is_followed = raster.is_near_change.empty() || raster.is_near_change[i] != 0;
             if (is_followed)
                 sweep.follow(static_cast<std::uint32_t>(i), parts[number]);
@@ -597,9 +706,17 @@ void sort_pairs(std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs) {
 
 } // namespace
 
-VisiblePieces
-cell_raster(const ScreenScene& scene, const Progress& progress, const CancelFlag* cancel) {
-    VisiblePieces result = follow_edges(raster_of(scene, cancel), {}, progress, cancel);
+VisiblePieces cell_raster(
+    const ScreenScene& scene,
+    const Progress& progress,
+    const CancelFlag* cancel,
+    const ExpectPieces& expect) {
+    VisiblePieces result = follow_edges(
+        raster_of(scene, progress, cancel),
+        {},
+        expect,
+        progress_between(progress, part_of_preparation, 1),
+        cancel);
     sort_pairs(result.penetrating);
     return result;
 }
@@ -609,8 +726,9 @@ VisiblePieces cell_raster_after(
     VisiblePieces before,
     const ScreenScene& scene,
     const Progress& progress,
-    const CancelFlag* cancel) {
-    Raster raster = raster_of(scene, cancel);
+    const CancelFlag* cancel,
+    const ExpectPieces& expect) {
+    Raster raster = raster_of(scene, progress, cancel);
     raster.is_near_change = edges_near(change, raster);
     // Where no shadow is near, there is none.
     const auto unlit = [&](std::uint32_t triangle) {
@@ -623,7 +741,9 @@ VisiblePieces cell_raster_after(
         piece.left_unlit = unlit(piece.left);
         piece.right_unlit = unlit(piece.right);
     }
-    VisiblePieces result = follow_edges(raster, before.pieces, progress, cancel);
+    stop_if_raised(cancel);
+    VisiblePieces result = follow_edges(
+        raster, before.pieces, expect, progress_between(progress, part_of_preparation, 1), cancel);
     for (const auto& [a, b] : before.penetrating)
         if (is_changed[a] == 0 && is_changed[b] == 0)
             result.penetrating.emplace_back(a, b);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/cells.h"
 
+#include "vera/base/long_loop.h"
+
 #include <array>
 #include <cmath>
 #include <limits>
@@ -68,8 +70,8 @@ void for_each_entry(
     const CancelFlag* cancel,
     const Visit& visit) {
     for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
-        if (cancel != nullptr && i % 256 == 0)
-            cancel->throw_if_raised();
+        if (i % 256 == 0)
+            stop_if_raised(cancel);
         const auto corners = corners_of(scene, scene.triangles[i]);
         const double near = nearest_for_hiding(
             slopes[i], std::array{corners[0].point, corners[1].point, corners[2].point});
@@ -93,6 +95,7 @@ std::uint64_t count_entries(
         static_cast<std::size_t>(cells.per_side) * static_cast<std::size_t>(cells.per_side);
     cells.blocked.assign(count, -1);
     cells.starts.assign(count + 1, 0);
+    stop_if_raised(cancel);
     block_cells(cells, scene, planes, slopes);
     std::uint64_t entries = 0;
     for_each_entry(cells, scene, slopes, cancel, [&](std::size_t cell, std::uint32_t) {

@@ -2,7 +2,9 @@
 #include "vera/visible/draw_scene.h"
 
 #include "vera/base/diagnostic.h"
+#include "vera/base/long_loop.h"
 #include "vera/base/progress_part.h"
+#include "vera/visible/drawing_memory.h"
 #include "vera/visible/drawn_faces.h"
 #include "vera/visible/outline_fills.h"
 #include "vera/visible/outline_strokes.h"
@@ -13,7 +15,9 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace vera {
@@ -64,6 +68,181 @@ SceneChange added_shadows(const ScreenScene& screen, std::size_t surfaces) {
     return change;
 }
 
+/// How long the stages of a drawing take, about, by what seeing without shadows takes.
+struct StageTimes {
+    double facets = 0.2;
+    double seeing = 1;
+    double shadows = 0;
+    double seeing_shadows = 0;
+    double map = 0.3;
+    double check = 0;
+    double fills = 0;
+    double lines = 0;
+
+    double sum() const {
+        return facets + seeing + shadows + seeing_shadows + map + check + fills + lines;
+    }
+};
+
+StageTimes
+stage_times(const Scene& scene, const PictureSettings& picture, const DrawSettings& settings) {
+    StageTimes times;
+    if (has_shadows(picture, settings)) {
+        times.shadows =
+            static_cast<double>(std::min<std::size_t>(scene.lights.size(), most_lights_of_a_set));
+        times.seeing_shadows = 1;
+    }
+    if (settings.check)
+        times.check = 1;
+    if (has_fills(settings.style))
+        times.fills = settings.style == DrawingStyle::shaded ? 4 : 0.5;
+    if (has_lines(settings.style))
+        times.lines = 0.5;
+    return times;
+}
+
+/// What is to be drawn, and what all stages have in common.
+struct Request {
+    const Scene& scene;
+    const Camera& camera;
+    const PictureSettings& picture;
+    const DrawSettings& settings;
+    const StageTimes times;
+    const CameraMap camera_map;
+    StageProgress stages;
+    const CancelFlag* cancel;
+
+    Progress next_stage(double time) {
+        stop_if_raised(cancel);
+        return stages.next(time);
+    }
+
+    /// Refuses a drawing that would not fit into memory.
+    ExpectPieces expect_pieces() const {
+        return [style = settings.style](double pieces) { require_drawing_memory(pieces, style); };
+    }
+};
+
+/// A scene on the screen, and what is seen of it.
+struct SeenScene {
+    Facets facets;
+    DrawnFaces faces;
+    ScreenScene screen; ///< whose sources are the faces
+    WholePieces whole;
+};
+
+SeenScene seen_scene(Request& request) {
+    const PictureSettings& picture = request.picture;
+    const bool is_in_numbers = request.settings.style == DrawingStyle::ids;
+    request.next_stage(request.times.facets);
+    SeenScene seen;
+    const auto deviation = [&](Vec3 point) {
+        return request.settings.deviation
+            * request.camera_map.size_of_pixel(picture.width, picture.height, point);
+    };
+    seen.facets = facets(request.scene, deviation, request.cancel);
+    if (is_in_numbers)
+        check_numbers(seen.facets);
+    // Shadows fall on plane faces; these become larger ones after.
+    seen.faces = drawn_faces(
+        request.scene,
+        seen.facets,
+        is_in_numbers ? FaceUnit::primitive : FaceUnit::plane,
+        request.camera,
+        request.cancel);
+    seen.screen = screen_scene(
+        seen.facets,
+        request.camera_map,
+        seen.faces.of_facet,
+        std::numeric_limits<double>::infinity(),
+        request.cancel);
+    sort_by_place(seen.screen, request.cancel);
+    seen.whole = whole_pieces(
+        seen.screen,
+        request.next_stage(request.times.seeing),
+        request.cancel,
+        request.settings.engine,
+        request.expect_pieces());
+    return seen;
+}
+
+/// Adds the shadows to the screen, and their borders to what is seen.
+ShadowCounts see_shadows(Request& request, SeenScene& seen) {
+    const std::size_t surfaces = seen.screen.triangles.size();
+    const ShadowCounts counts = add_shadows(
+        {request.scene,
+         seen.facets,
+         seen.faces,
+         request.camera,
+         request.camera_map,
+         static_cast<double>(request.picture.width),
+         static_cast<double>(request.picture.height),
+         seen.whole.pieces},
+        seen.screen,
+        request.next_stage(request.times.shadows),
+        request.cancel);
+    seen.whole.pieces = cell_raster_after(
+        added_shadows(seen.screen, surfaces),
+        std::move(seen.whole.pieces),
+        seen.screen,
+        request.next_stage(request.times.seeing_shadows),
+        request.cancel,
+        request.expect_pieces());
+    return counts;
+}
+
+void make_faces_smooth(const Request& request, SeenScene& seen) {
+    DrawnFaces smooth =
+        drawn_faces(request.scene, seen.facets, FaceUnit::smooth, request.camera, request.cancel);
+    join_sources(seen.screen, seen.whole.pieces, seen.faces, smooth);
+    seen.faces = std::move(smooth);
+}
+
+Drawing painted(Request& request, const SeenScene& seen, const VisibleMap& map) {
+    const DrawSettings& settings = request.settings;
+    Drawing drawing;
+    drawing.width = request.picture.width;
+    drawing.height = request.picture.height;
+    if (has_fills(settings.style))
+        add_fills(
+            {request.scene,
+             request.camera,
+             request.picture,
+             seen.facets,
+             seen.faces,
+             map,
+             settings.style,
+             {settings.color_tolerance, settings.deviation}},
+            request.next_stage(request.times.fills),
+            request.cancel,
+            drawing);
+    if (has_lines(settings.style))
+        add_strokes(
+            {request.scene,
+             request.camera,
+             request.camera_map,
+             request.picture,
+             seen.facets,
+             seen.faces,
+             seen.screen,
+             seen.whole.pieces,
+             map,
+             settings.deviation},
+            {.hidden = settings.style == DrawingStyle::hidden_lines,
+             .shadows = settings.shadow_lines},
+            request.next_stage(request.times.lines),
+            request.cancel,
+            drawing);
+    return drawing;
+}
+
+std::size_t count_seen_faces(const VisibleMap& map) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < map.rings.size(); ++i)
+        count += i == 0 || map.rings[i].source != map.rings[i - 1].source ? 1 : 0;
+    return count;
+}
+
 } // namespace
 
 DrawnScene draw_scene(
@@ -73,93 +252,38 @@ DrawnScene draw_scene(
     const DrawSettings& settings,
     const Progress& progress,
     const CancelFlag* cancel) {
-    const CameraMap camera_map(camera);
-    const auto deviation = [&](Vec3 point) {
-        return settings.deviation * camera_map.size_of_pixel(picture.width, picture.height, point);
-    };
-    const Facets all = facets(scene, deviation, cancel);
-    if (settings.style == DrawingStyle::ids)
-        check_numbers(all);
-    // Shadows fall on plane faces; these become larger ones after.
-    DrawnFaces faces = drawn_faces(
+    const StageTimes times = stage_times(scene, picture, settings);
+    Request request = {
         scene,
-        all,
-        settings.style == DrawingStyle::ids ? FaceUnit::primitive : FaceUnit::plane,
-        camera);
-    ScreenScene screen = screen_scene(all, camera_map, faces.of_facet);
-    sort_by_place(screen);
+        camera,
+        picture,
+        settings,
+        times,
+        CameraMap(camera),
+        StageProgress(progress, times.sum()),
+        cancel};
+    SeenScene seen = seen_scene(request);
     DrawnScene drawn;
-    drawn.facets = all.triangles.size();
-    drawn.cut_nearness = screen.cut_nearness;
-    const bool is_shadowed = has_shadows(picture, settings);
-    const std::size_t steps = is_shadowed ? 3 : 1;
-    WholePieces whole =
-        whole_pieces(screen, progress_part(progress, 0, steps), cancel, settings.engine);
-    drawn.cut_rounds = static_cast<std::size_t>(whole.rounds - 1);
-    drawn.penetrating = whole.left;
-    if (is_shadowed) {
-        const std::size_t surfaces = screen.triangles.size();
-        drawn.shadows = add_shadows(
-            {scene,
-             all,
-             faces,
-             camera,
-             camera_map,
-             static_cast<double>(picture.width),
-             static_cast<double>(picture.height),
-             whole.pieces},
-            screen,
-            progress_part(progress, 1, steps),
-            cancel);
+    drawn.facets = seen.facets.triangles.size();
+    drawn.cut_nearness = seen.screen.cut_nearness;
+    drawn.cut_rounds = static_cast<std::size_t>(seen.whole.rounds - 1);
+    drawn.penetrating = seen.whole.left;
+    if (has_shadows(picture, settings)) {
+        drawn.shadows = see_shadows(request, seen);
         drawn.lights_without_shadows =
             scene.lights.size() - std::min<std::size_t>(scene.lights.size(), most_lights_of_a_set);
-        whole.pieces = cell_raster_after(
-            added_shadows(screen, surfaces),
-            std::move(whole.pieces),
-            screen,
-            progress_part(progress, 2, steps),
-            cancel);
     }
-    if (settings.style == DrawingStyle::shaded) {
-        DrawnFaces smooth = drawn_faces(scene, all, FaceUnit::smooth, camera);
-        join_sources(screen, whole.pieces, faces, smooth);
-        faces = std::move(smooth);
-    }
-    const VisibleMap map = visible_map(screen, whole.pieces);
+    const Progress of_map = request.next_stage(times.map);
+    if (settings.style == DrawingStyle::shaded)
+        make_faces_smooth(request, seen);
+    const VisibleMap map = visible_map(seen.screen, seen.whole.pieces, of_map, cancel);
+    drawn.visible_faces = count_seen_faces(map);
     if (settings.check)
-        settings.check({map, primitives_of(all, faces), screen.cut_nearness});
-
-    drawn.drawing.width = picture.width;
-    drawn.drawing.height = picture.height;
-    if (has_fills(settings.style))
-        add_fills(
-            {scene,
-             camera,
-             picture,
-             all,
-             faces,
-             map,
-             settings.style,
-             {settings.color_tolerance, settings.deviation}},
-            cancel,
-            drawn.drawing);
-    if (has_lines(settings.style))
-        add_strokes(
-            {scene,
-             camera,
-             camera_map,
-             picture,
-             all,
-             faces,
-             screen,
-             whole.pieces,
-             map,
-             settings.deviation},
-            {.hidden = settings.style == DrawingStyle::hidden_lines,
-             .shadows = settings.shadow_lines},
-            drawn.drawing);
-    for (std::size_t i = 0; i < map.rings.size(); ++i)
-        drawn.visible_faces += i == 0 || map.rings[i].source != map.rings[i - 1].source ? 1 : 0;
+        settings.check(
+            {map, primitives_of(seen.facets, seen.faces), seen.screen.cut_nearness},
+            request.next_stage(times.check));
+    drawn.drawing = painted(request, seen, map);
+    request.next_stage(0); // tells that all are done
     return drawn;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/outline_fills.h"
 
+#include "vera/base/long_loop.h"
+#include "vera/base/progress_part.h"
 #include "vera/scene/item_names.h"
 #include "vera/scene/surface.h"
 #include "vera/visible/face_color.h"
@@ -59,11 +61,15 @@ std::uint32_t facet_of(const FillSources& sources, const RegionOutlines& regions
 void add_shaded(
     const FillSources& sources,
     const RegionOutlines& regions,
+    const Progress& progress,
     const CancelFlag* cancel,
     Drawing& drawing) {
+    StageProgress stages(progress, 10);
     OutlineNames names(sources.scene);
     std::vector<LitOutline> lit(regions.count());
+    const LongLoop loop(regions.count(), stages.next(1), cancel, 16);
     for (std::size_t i = 0; i < regions.count(); ++i) {
+        loop.turn(i);
         const std::uint32_t facet = facet_of(sources, regions, i);
         FilledOutline outline;
         names.name(sources.facets.triangles[facet].primitive, outline);
@@ -72,7 +78,8 @@ void add_shaded(
         lit[i] = {
             std::move(outline), regions.rings(i).size(), facet, ~sources.map.regions[i].unlit};
     }
-    DrawnFirmament firmament = drawn_firmament(sources.camera, sources.picture, sources.tolerance);
+    DrawnFirmament firmament =
+        drawn_firmament(sources.camera, sources.picture, sources.tolerance, cancel);
     drawing.background = firmament.background;
     drawing.fills = std::move(firmament.sky);
     std::ranges::move(
@@ -83,22 +90,31 @@ void add_shaded(
              sources.picture,
              sources.facets,
              sources.tolerance,
+             stages.next(9),
              cancel}),
         std::back_inserter(drawing.fills));
 }
 
 /// The outlines in one colour each, on underlays.
-void add_flat(const FillSources& sources, const RegionOutlines& regions, Drawing& drawing) {
+void add_flat(
+    const FillSources& sources,
+    const RegionOutlines& regions,
+    const Progress& progress,
+    const CancelFlag* cancel,
+    Drawing& drawing) {
+    StageProgress stages(progress, 10);
     OutlineNames names(sources.scene);
-    const std::vector<bool> is_covering_whole = covering_whole(regions);
+    const std::vector<bool> is_covering_whole = covering_whole(regions, stages.next(1), cancel);
+    const LongLoop loop(regions.count(), stages.next(5), cancel, 256);
     for (std::size_t i = 0; i < regions.count(); ++i) {
+        loop.turn(i);
         FilledOutline& outline = drawing.fills.emplace_back();
         outline.color = region_color(sources, regions.rings(i));
         names.name(sources.facets.triangles[facet_of(sources, regions, i)].primitive, outline);
         regions.add_rings(i, outline);
         cover_seams(regions, is_covering_whole, i, outline);
     }
-    std::vector<FilledOutline> below = underlays(regions, drawing.fills);
+    std::vector<FilledOutline> below = underlays(regions, drawing.fills, stages.next(4), cancel);
     drawing.fills.insert(
         drawing.fills.begin(),
         std::make_move_iterator(below.begin()),
@@ -107,8 +123,15 @@ void add_flat(const FillSources& sources, const RegionOutlines& regions, Drawing
 
 /// The outlines in the colours of their numbers. These are to be compared, not looked at: the
 /// colour says all, and the file stays small.
-void add_numbers(const FillSources& sources, const RegionOutlines& regions, Drawing& drawing) {
+void add_numbers(
+    const FillSources& sources,
+    const RegionOutlines& regions,
+    const Progress& progress,
+    const CancelFlag* cancel,
+    Drawing& drawing) {
+    const LongLoop loop(regions.count(), progress, cancel, 256);
     for (std::size_t i = 0; i < regions.count(); ++i) {
+        loop.turn(i);
         FilledOutline& outline = drawing.fills.emplace_back();
         outline.color = region_color(sources, regions.rings(i));
         regions.add_rings(i, outline);
@@ -117,15 +140,19 @@ void add_numbers(const FillSources& sources, const RegionOutlines& regions, Draw
 
 } // namespace
 
-void add_fills(const FillSources& sources, const CancelFlag* cancel, Drawing& drawing) {
+void add_fills(
+    const FillSources& sources,
+    const Progress& progress,
+    const CancelFlag* cancel,
+    Drawing& drawing) {
     drawing.background = background_color(sources);
     const RegionOutlines regions(sources.map, sources.picture);
     if (sources.style == DrawingStyle::shaded)
-        add_shaded(sources, regions, cancel, drawing);
+        add_shaded(sources, regions, progress, cancel, drawing);
     else if (sources.style == DrawingStyle::ids)
-        add_numbers(sources, regions, drawing);
+        add_numbers(sources, regions, progress, cancel, drawing);
     else
-        add_flat(sources, regions, drawing);
+        add_flat(sources, regions, progress, cancel, drawing);
 }
 
 } // namespace vera

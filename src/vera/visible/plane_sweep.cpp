@@ -2,6 +2,7 @@
 #include "vera/visible/plane_sweep.h"
 
 #include "vera/base/available_memory.h"
+#include "vera/base/long_loop.h"
 #include "vera/base/random.h"
 #include "vera/visible/connection_graph.h"
 #include "vera/visible/edges.h"
@@ -252,17 +253,15 @@ SweepForecast forecast_of(const SweepSegments& segments) {
 
 SweepForecast checked_forecast(const SweepSegments& segments, std::optional<std::uint64_t> most) {
     const SweepForecast forecast = forecast_of(segments);
-    const std::optional<std::uint64_t> limit = most ? most : available_memory();
-    if (!limit || forecast.bytes <= static_cast<double>(*limit))
-        return forecast;
-    const auto mebibytes = [](double bytes) {
-        return std::to_string(static_cast<std::uint64_t>(bytes / 0x1p20) + 1);
-    };
-    throw std::runtime_error(
-        "a sweep would meet about " + std::to_string(static_cast<std::uint64_t>(forecast.crossings))
-        + " crossings of edges, which takes about " + mebibytes(forecast.bytes)
-        + " MiB of memory, and " + mebibytes(static_cast<double>(*limit))
-        + " MiB are available: take --engine cells, which keeps no crossings");
+    const std::string what = "a sweep would meet about "
+        + std::to_string(static_cast<std::uint64_t>(forecast.crossings))
+        + " crossings of edges, which";
+    const std::string remedy = "take --engine cells, which keeps no crossings";
+    if (most)
+        require_memory(forecast.bytes, most, what, remedy);
+    else
+        require_memory(forecast.bytes, what, remedy);
+    return forecast;
 }
 
 } // namespace
@@ -277,6 +276,7 @@ VisiblePieces plane_sweep(
     const Progress& progress,
     const CancelFlag* cancel) {
     const SweptScene swept = swept_scene(scene);
+    stop_if_raised(cancel);
     const SweepForecast forecast = checked_forecast(swept.segments, settings.most_bytes);
     SweepCounts counts;
     constexpr double part_of_graph = 0.5; // of the time
@@ -312,6 +312,7 @@ VisiblePieces plane_sweep(
         *settings.counts = counts;
 
     // Pieces need as much room as what is no longer asked for.
+    stop_if_raised(cancel);
     std::vector<ConnectionGraph::Edge>().swap(graph.edges);
     std::vector<std::uint32_t>().swap(graph.gaps);
     VisiblePieces result;

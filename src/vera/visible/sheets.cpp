@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/sheets.h"
 
+#include "vera/base/long_loop.h"
 #include "vera/base/parallel.h"
 
 #include <algorithm>
@@ -162,10 +163,11 @@ void leave_out_hidden(Cells& cells, const SheetScene& sheets) {
 
 } // namespace
 
-void block_by_sheets(Cells& cells, const SheetScene& sheets) {
+void block_by_sheets(Cells& cells, const SheetScene& sheets, const CancelFlag* cancel) {
     // In longer lists there is hardly a cell without a border, and joining takes long.
     constexpr std::size_t longest = 256;
     parallel_ranges(cells.blocked.size(), 4096, [&](std::size_t first, std::size_t last) {
+        stop_if_raised(cancel);
         SheetsOfCell sheets_of_cell(sheets);
         for (std::size_t cell = first; cell < last; ++cell) {
             const auto triangles = cells.triangles_of(cell);

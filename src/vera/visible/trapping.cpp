@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/trapping.h"
 
+#include "vera/base/long_loop.h"
 #include "vera/visible/seam_strips.h"
 
 #include <algorithm>
@@ -11,11 +12,14 @@
 
 namespace vera {
 
-std::vector<bool> covering_whole(const RegionOutlines& regions) {
+std::vector<bool>
+covering_whole(const RegionOutlines& regions, const Progress& progress, const CancelFlag* cancel) {
     constexpr std::size_t small = 16;
     constexpr double narrow = 4; // pixels, twice the strip's width
     std::vector<bool> result(regions.count());
+    const LongLoop loop(regions.count(), progress, cancel);
     for (std::size_t number = 0; number < regions.count(); ++number) {
+        loop.turn(number);
         FilledOutline outline;
         regions.add_rings(number, outline);
         double doubled_area = 0;

@@ -3,6 +3,7 @@
 // behind both. So the one that is painted earlier goes on below the other.
 #pragma once
 
+#include "vera/base/parallel.h"
 #include "vera/drawing/drawing.h"
 #include "vera/visible/region_outlines.h"
 
@@ -12,8 +13,11 @@
 namespace vera {
 
 /// Of each region, whether others go on below the whole of it: where it is small, or so narrow that
-/// a strip below its border would come out beyond it.
-std::vector<bool> covering_whole(const RegionOutlines& regions);
+/// a strip below its border would come out beyond it. Throws Cancelled.
+std::vector<bool> covering_whole(
+    const RegionOutlines& regions,
+    const Progress& progress = {},
+    const CancelFlag* cancel = nullptr);
 
 /// Lets the outline of the region, which has its rings and no others, go on below those beside it
 /// that are painted later: below all of those that are covering whole, which moves no silhouette;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/underlays.h"
 
+#include "vera/base/long_loop.h"
+#include "vera/base/progress_part.h"
 #include "vera/visible/covered_areas.h"
 
 #include <algorithm>
@@ -39,18 +41,26 @@ struct ColorSum {
 
 } // namespace
 
-std::vector<FilledOutline>
-underlays(const RegionOutlines& regions, std::span<const FilledOutline> fills) {
-    const CoveredAreas areas = covered_areas(regions.map());
+std::vector<FilledOutline> underlays(
+    const RegionOutlines& regions,
+    std::span<const FilledOutline> fills,
+    const Progress& progress,
+    const CancelFlag* cancel) {
+    StageProgress stages(progress, 4);
+    const CoveredAreas areas = covered_areas(regions.map(), stages.next(2), cancel);
     std::vector<ColorSum> sums(areas.outlines.size());
+    const LongLoop loop(regions.count(), stages.next(1), cancel);
     for (std::size_t number = 0; number < regions.count(); ++number) {
+        loop.turn(number);
         double area = 0;
         for (const VisibleMap::Ring& ring : regions.rings(number))
             area += doubled_area(regions.map(), ring);
         sums[areas.of_source[regions.rings(number).front().source]].add(fills[number].color, area);
     }
     std::vector<FilledOutline> result;
+    const LongLoop of_areas(sums.size(), stages.next(1), cancel);
     for (std::size_t i = 0; i < sums.size(); ++i) {
+        of_areas.turn(i);
         if (sums[i].regions < 2 || sums[i].area <= 0)
             continue;
         FilledOutline& underlay = result.emplace_back();

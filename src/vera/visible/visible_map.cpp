@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/visible_map.h"
 
+#include "vera/base/long_loop.h"
+#include "vera/base/progress_part.h"
 #include "vera/visible/point_numbers.h"
 
 #include <algorithm>
@@ -44,7 +46,11 @@ struct Leaving {
     }
 };
 
-Leaving leaving_ways(const Ways& ways, std::size_t vertex_count) {
+Leaving leaving_ways(
+    const Ways& ways,
+    std::size_t vertex_count,
+    const Progress& progress,
+    const CancelFlag* cancel) {
     Leaving leaving;
     leaving.starts.resize(vertex_count + 1);
     for (const std::uint32_t vertex : ways.from)
@@ -54,7 +60,9 @@ Leaving leaving_ways(const Ways& ways, std::size_t vertex_count) {
     std::vector<std::uint32_t> next(leaving.starts.begin(), leaving.starts.end() - 1);
     for (std::uint32_t way = 0; way < ways.from.size(); ++way)
         leaving.ways[next[ways.from[way]]++] = way;
+    const LongLoop loop(vertex_count, progress, cancel);
     for (std::size_t vertex = 0; vertex < vertex_count; ++vertex) {
+        loop.turn(vertex);
         const std::span<std::uint32_t> here = leaving.of(vertex);
         std::sort(here.begin(), here.end(), [&](std::uint32_t a, std::uint32_t b) {
             return turns_before(ways.direction[a], ways.direction[b]);
@@ -71,7 +79,12 @@ struct Loose {
 
 /// Joins each end to the nearest beginning of its region that is left. Those whose nearest is the
 /// nearest come first: none takes the one that belongs to another.
-void join(Loose loose, const Ways& ways, std::vector<std::uint32_t>& following, VisibleMap& map) {
+void join(
+    Loose loose,
+    const Ways& ways,
+    const CancelFlag* cancel,
+    std::vector<std::uint32_t>& following,
+    VisibleMap& map) {
     const auto by_region = [&](std::uint32_t a, std::uint32_t b) {
         return ways.region[a] != ways.region[b] ? ways.region[a] < ways.region[b] : a < b;
     };
@@ -99,10 +112,13 @@ void join(Loose loose, const Ways& ways, std::vector<std::uint32_t>& following, 
                 });
         };
         std::vector<std::pair<double, std::uint32_t>> ends;
-        for (std::size_t i = first; i < last; ++i)
+        for (std::size_t i = first; i < last; ++i) {
+            stop_if_raised(cancel);
             ends.emplace_back(distance(loose.ends[i], *nearest(loose.ends[i])), loose.ends[i]);
+        }
         std::sort(ends.begin(), ends.end());
         for (const auto& [_, end] : ends) {
+            stop_if_raised(cancel);
             const auto begin = nearest(end);
             ++map.joined;
             following[end] = *begin;
@@ -113,11 +129,15 @@ void join(Loose loose, const Ways& ways, std::vector<std::uint32_t>& following, 
 
 /// Of each way the one that follows on the same region's border: at its end the first to the right
 /// of the way back.
-std::vector<std::uint32_t> following(const Ways& ways, VisibleMap& map) {
-    Leaving leaving = leaving_ways(ways, map.vertices.size());
+std::vector<std::uint32_t>
+following(const Ways& ways, const Progress& progress, const CancelFlag* cancel, VisibleMap& map) {
+    Leaving leaving =
+        leaving_ways(ways, map.vertices.size(), progress_part(progress, 0, 2), cancel);
     std::vector<std::uint32_t> result(ways.from.size());
     Loose loose;
+    const LongLoop loop(map.vertices.size(), progress_part(progress, 1, 2), cancel);
     for (std::size_t vertex = 0; vertex < map.vertices.size(); ++vertex) {
+        loop.turn(vertex);
         const std::span<const std::uint32_t> here = leaving.of(vertex);
         for (std::size_t i = 0; i < here.size(); ++i) {
             const std::uint32_t coming = here[i] ^ 1U;
@@ -129,7 +149,7 @@ std::vector<std::uint32_t> following(const Ways& ways, VisibleMap& map) {
             }
         }
     }
-    join(std::move(loose), ways, result, map);
+    join(std::move(loose), ways, cancel, result, map);
     return result;
 }
 
@@ -184,7 +204,12 @@ private:
     std::vector<Listed> listed_;
 };
 
-Ways ways_of(const ScreenScene& scene, const VisiblePieces& pieces, VisibleMap& map) {
+Ways ways_of(
+    const ScreenScene& scene,
+    const VisiblePieces& pieces,
+    const Progress& progress,
+    const CancelFlag* cancel,
+    VisibleMap& map) {
     const std::size_t count = pieces.pieces.size();
     Ways ways;
     ways.from.resize(2 * count);
@@ -192,8 +217,11 @@ Ways ways_of(const ScreenScene& scene, const VisiblePieces& pieces, VisibleMap& 
     ways.region.resize(2 * count, no_region);
     PointNumbers points(map.vertices, count + count / 2);
     // Calls visit(way, region) for the ways with one on their left.
+    StageProgress stages(progress, 3);
     const auto for_each_region = [&](const auto& visit) {
+        const LongLoop loop(count, stages.next(1), cancel);
         for (std::size_t i = 0; i < count; ++i) {
+            loop.turn(i);
             const VisiblePiece& piece = pieces.pieces[i];
             if (piece.left != no_triangle)
                 visit(
@@ -211,7 +239,9 @@ Ways ways_of(const ScreenScene& scene, const VisiblePieces& pieces, VisibleMap& 
     for_each_region([&](std::size_t way, VisibleMap::Region region) {
         ways.region[way] = regions.number(region);
     });
+    const LongLoop loop(count, stages.next(1), cancel);
     for (std::size_t i = 0; i < count; ++i) {
+        loop.turn(i);
         const VisiblePiece& piece = pieces.pieces[i];
         map.piece_ends.push_back({points.number(piece.from), points.number(piece.to)});
         ways.from[2 * i] = map.piece_ends.back()[0];
@@ -228,16 +258,23 @@ bool is_straight_on(ScreenStep a, ScreenStep b) {
 
 } // namespace
 
-VisibleMap visible_map(const ScreenScene& scene, const VisiblePieces& pieces) {
+VisibleMap visible_map(
+    const ScreenScene& scene,
+    const VisiblePieces& pieces,
+    const Progress& progress,
+    const CancelFlag* cancel) {
+    StageProgress stages(progress, 3);
     VisibleMap map;
-    const Ways ways = ways_of(scene, pieces, map);
-    const std::vector<std::uint32_t> next = following(ways, map);
+    const Ways ways = ways_of(scene, pieces, stages.next(1), cancel, map);
+    const std::vector<std::uint32_t> next = following(ways, stages.next(1), cancel, map);
     std::vector<std::uint8_t> done(ways.from.size());
     const auto add = [&](std::uint32_t vertex, std::uint32_t across) {
         map.ring_vertices.push_back(vertex);
         map.ring_across.push_back(across);
     };
+    const LongLoop loop(ways.from.size(), stages.next(1), cancel);
     for (std::uint32_t first = 0; first < ways.from.size(); ++first) {
+        loop.turn(first);
         if (done[first] != 0 || ways.region[first] == no_region)
             continue;
         VisibleMap::Ring ring = {
