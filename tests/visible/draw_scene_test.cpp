@@ -45,7 +45,7 @@ struct Sample {
         scene.lights[0].position = {-6, 5, 4};
         scene.lights[1].position = {1, 7, -3};
         camera = testing::camera_number(1);
-        picture.width = picture.height = 200;
+        picture.width = picture.height = 100;
         picture.firmament = Firmament{{0.2, 0.3, 0.8}, {0.9, 0.8, 0.7}, {0.3, 0.4, 0.1}};
     }
 
@@ -75,7 +75,7 @@ std::vector<DrawSettings> all_settings(const Sample& sample, const RayIndex& ind
     all.back().engine = VisibilityEngine::sweep;
     all.push_back(all.front());
     all.back().check = [&](const PrimitiveMap& map, const Progress& progress) {
-        const MapCheckSettings settings = {2000, 200, 200, 0.5};
+        const MapCheckSettings settings = {2000, 100, 100, 0.5};
         check_map(map, sample.scene, sample.camera, index, settings, progress, sample.cancel);
     };
     return all;
@@ -109,7 +109,7 @@ TEST(DrawScene, EndsWithinAStepOfTheProgressWhereverItIsToldTo) {
         sample.draw(
             settings, [&](double) { ++calls; }, nullptr);
         // The last call is behind everything.
-        const std::size_t step = 1 + calls / 60;
+        const std::size_t step = 1 + calls / 24;
         for (std::size_t last = 0; last + 1 < calls; last += step) {
             CancelFlag cancel;
             std::size_t call = 0;

@@ -42,12 +42,17 @@ struct SweptScene {
     SweepSegments segments;
 };
 
-SweptScene swept_scene(const ScreenScene& scene) {
+SweptScene swept_scene(const ScreenScene& scene, const CancelFlag* cancel) {
     SweptScene swept = {scene, {}, {}, {}};
-    for (const ScreenTriangle& triangle : scene.triangles)
-        swept.slopes.push_back(nearness_slope(plane_of(scene, triangle)));
+    const LongLoop loop(scene.triangles.size(), {}, cancel);
+    for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
+        loop.turn(i);
+        swept.slopes.push_back(nearness_slope(plane_of(scene, scene.triangles[i])));
+    }
+    stop_if_raised(cancel);
     swept.edges = screen_edges(scene);
-    swept.segments = sweep_segments(scene, swept.edges);
+    stop_if_raised(cancel);
+    swept.segments = sweep_segments(scene, swept.edges, cancel);
     return swept;
 }
 
@@ -211,7 +216,8 @@ joined(const SweptScene& swept, const ConnectionGraph& graph, std::vector<Visibl
 }
 
 /// How many pairs of segments cross: all are asked, or as many as suffice, at random.
-double crossings_of(std::span<const SweepSegments::Segment> segments) {
+double
+crossings_of(std::span<const SweepSegments::Segment> segments, const CancelFlag* cancel = nullptr) {
     SweepCounts uncounted;
     const SweepPredicates predicates(segments, uncounted);
     const auto do_cross = [&](std::uint64_t i, std::uint64_t j) {
@@ -229,7 +235,9 @@ double crossings_of(std::span<const SweepSegments::Segment> segments) {
                 found += do_cross(i, j) ? 1 : 0;
         return static_cast<double>(found);
     }
+    const LongLoop loop(samples, {}, cancel);
     for (std::uint64_t i = 0; i < samples; ++i) {
+        loop.turn(i);
         const std::uint64_t a = random(1988, i, 0) % count;
         const std::uint64_t b = random(1988, i, 1) % count;
         found += a != b && do_cross(a, b) ? 1 : 0;
@@ -237,22 +245,23 @@ double crossings_of(std::span<const SweepSegments::Segment> segments) {
     return static_cast<double>(found) / samples * static_cast<double>(pairs);
 }
 
-SweepForecast forecast_of(const SweepSegments& segments) {
+SweepForecast forecast_of(const SweepSegments& segments, const CancelFlag* cancel = nullptr) {
     // A vertex of the graph with two edges and three gaps, and crossings that wait: 88. Where most
     // is seen, pieces take half as much again. A segment has its ends, its rung and what is
     // remembered of it.
     constexpr double per_crossing = 120;
     constexpr double per_segment = 350;
     SweepForecast forecast;
-    forecast.crossings = crossings_of(segments.segments);
+    forecast.crossings = crossings_of(segments.segments, cancel);
     forecast.bytes = per_crossing * forecast.crossings
         + per_segment * static_cast<double>(segments.segments.size())
         + sizeof(SweepSegments::Border) * static_cast<double>(segments.borders.size());
     return forecast;
 }
 
-SweepForecast checked_forecast(const SweepSegments& segments, std::optional<std::uint64_t> most) {
-    const SweepForecast forecast = forecast_of(segments);
+SweepForecast checked_forecast(
+    const SweepSegments& segments, std::optional<std::uint64_t> most, const CancelFlag* cancel) {
+    const SweepForecast forecast = forecast_of(segments, cancel);
     const std::string what = "a sweep would meet about "
         + std::to_string(static_cast<std::uint64_t>(forecast.crossings))
         + " crossings of edges, which";
@@ -275,9 +284,9 @@ VisiblePieces plane_sweep(
     const PlaneSweepSettings& settings,
     const Progress& progress,
     const CancelFlag* cancel) {
-    const SweptScene swept = swept_scene(scene);
+    const SweptScene swept = swept_scene(scene, cancel);
     stop_if_raised(cancel);
-    const SweepForecast forecast = checked_forecast(swept.segments, settings.most_bytes);
+    const SweepForecast forecast = checked_forecast(swept.segments, settings.most_bytes, cancel);
     SweepCounts counts;
     constexpr double part_of_graph = 0.5; // of the time
     ConnectionGraph graph = connection_graph(
