@@ -118,10 +118,8 @@ void check_style(const Request& request, DrawingStyle style, DrawingFormat forma
 }
 
 /// Scales the light as EXPMES would for a picture.
-void expose_as_picture(PreparedScene& prepared, const Console& console) {
-    if (prepared.settings.exposure.value_or(0) <= 0)
-        return;
-    const auto index = scene_index(prepared.scene, {}, {}, console.cancel);
+void expose_as_picture(PreparedScene& prepared, const Console& console, const Progress& progress) {
+    const auto index = scene_index(prepared.scene, {}, progress, console.cancel);
     TracedScene traced = traced_scene(prepared.scene, *index, prepared.settings, &console.cancel);
     RenderStatistics statistics;
     expose(traced, prepared.camera, *prepared.settings.exposure, statistics);
@@ -279,11 +277,12 @@ DrawnScene draw_and_write(
     Report& report) {
     const CancellableWork work;
     Stopwatch watch;
-    if (settings.style == DrawingStyle::flat || settings.style == DrawingStyle::shaded
-        || settings.style == DrawingStyle::toon)
-        expose_as_picture(prepared, console);
+    const bool is_exposed = prepared.settings.exposure.value_or(0) > 0 && has_fills(settings.style)
+        && settings.style != DrawingStyle::ids;
     ProgressDisplay display(console, "draw");
-    StageProgress stages(display.callback(), 10);
+    StageProgress stages(display.callback(), is_exposed ? 12 : 10);
+    if (is_exposed)
+        expose_as_picture(prepared, console, stages.next(2));
     DrawnScene drawn = draw_scene(
         prepared.scene,
         prepared.camera,

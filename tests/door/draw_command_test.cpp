@@ -524,9 +524,9 @@ TEST(DrawCommand, RefusesWhatWouldTakeMoreThanTheMemoryLimit) {
     folder.write("a.vera", many_spheres());
     const ProgramRun run = run_vera(folder, "draw a.vera --memory-limit 20M -o a.svg");
     EXPECT_EQ(run.exit_code, 3) << run.err;
-    EXPECT_TRUE(holds(run.err, "finding what is seen of ")) << run.err;
-    EXPECT_TRUE(holds(run.err, "MiB are available: a larger --deviation makes fewer facets"))
-        << run.err;
+    EXPECT_TRUE(holds(run.err, "vera: error: the scene in ")) << run.err;
+    EXPECT_TRUE(holds(run.err, " facets takes about ")) << run.err;
+    EXPECT_TRUE(holds(run.err, "MiB are available: a larger --deviation makes fewer")) << run.err;
     EXPECT_EQ(folder.file_count(), 1U);
 
     folder.write("b.vera", small_scene);

@@ -336,6 +336,24 @@ TEST(DrawingMemory, WhatDoesNotFitIsRefusedBeforeItIsTaken) {
     EXPECT_LT(taken, raster_bytes(counts_of(scene)) * 1.1);
 }
 
+TEST(DrawingMemory, FacetsAreRefusedBeforeThereAreTooMany) {
+    Scene scene;
+    Item item;
+    item.kind = ItemKind::sphere;
+    for (; item.index < 200; ++item.index) {
+        scene.geometry.spheres.push_back({{0, 0, 0}, 1.0 + item.index});
+        scene.geometry.items.push_back(item);
+    }
+    number_primitives(scene);
+    const MemoryLimit limit(1);
+    const double taken = most_bytes_of([&] {
+        EXPECT_THAT(
+            refusal([&] { facets(scene, [](Vec3) { return 0.01; }); }),
+            HasSubstr(" facets takes about "));
+    });
+    EXPECT_LT(taken, 1e7);
+}
+
 TEST(DrawingMemory, ShadowsAreRefusedBeforeTheyAreThrown) {
     ScreenScene screen = testing::scattered(1, 1'000, screen_size / 50);
     const ShadowMemory memory(screen);

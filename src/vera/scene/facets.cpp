@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/scene/facets.h"
 
+#include "vera/base/available_memory.h"
 #include "vera/base/check.h"
 #include "vera/base/diagnostic.h"
 #include "vera/base/long_loop.h"
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <string>
 
 namespace vera {
 
@@ -122,9 +124,21 @@ private:
     void add_triangle(std::array<std::uint32_t, 3> corners, std::uint32_t piece, bool turned) {
         if (facets_.triangles.size() + 1 >= too_many)
             refuse(scene_);
+        if (facets_.triangles.size() == facets_.triangles.capacity())
+            require_room();
         if (turned != visit_->mirrored)
             std::swap(corners[1], corners[2]);
         facets_.triangles.push_back({corners, piece, primitive_, material_});
+    }
+
+    /// For twice as many facets, which the list takes next, with what is made of each at once.
+    void require_room() const {
+        constexpr double per_facet = 250;
+        const std::size_t next = 2 * facets_.triangles.size();
+        require_memory(
+            per_facet * static_cast<double>(next),
+            "the scene in " + std::to_string(next) + " facets",
+            "a larger --deviation makes fewer of curved surfaces, and simpler meshes have fewer");
     }
 
     void add_plane(const std::array<Vec3, 3>& corners, bool turned) {
