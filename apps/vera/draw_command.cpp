@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "vera/base/available_memory.h"
 #include "vera/base/output_file.h"
+#include "vera/base/progress_part.h"
 #include "vera/base/version.h"
 #include "vera/drawing/drawing_file.h"
 #include "vera/render/exposure.h"
@@ -11,6 +13,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "command.h"
@@ -46,6 +49,7 @@ struct Request {
     double page = 0;
     double threads = 0;
     double time_limit = 0;
+    std::string memory_limit; ///< empty: what the machine has
     std::vector<std::string> lines;
     bool shadow_lines = false;
     double verify = 0; ///< points; 0: not at all
@@ -114,11 +118,8 @@ void check_style(const Request& request, DrawingStyle style, DrawingFormat forma
 }
 
 /// Scales the light as EXPMES would for a picture.
-void expose_as_picture(PreparedScene& prepared, const Console& console) {
-    if (prepared.settings.exposure.value_or(0) <= 0)
-        return;
-    const CancellableWork work;
-    const auto index = scene_index(prepared.scene, {}, {}, console.cancel);
+void expose_as_picture(PreparedScene& prepared, const Console& console, const Progress& progress) {
+    const auto index = scene_index(prepared.scene, {}, progress, console.cancel);
     TracedScene traced = traced_scene(prepared.scene, *index, prepared.settings, &console.cancel);
     RenderStatistics statistics;
     expose(traced, prepared.camera, *prepared.settings.exposure, statistics);
@@ -161,22 +162,29 @@ std::string thing_text(const Scene& scene, std::uint64_t primitive) {
 
 /// What compares the map with rays at so many points, and lets no drawing be written that differs.
 /// All that is given must outlive it.
-std::function<void(const PrimitiveMap&)> verification(
+std::function<void(const PrimitiveMap&, const Progress&)> verification(
     std::size_t points,
     double deviation,
     const PreparedScene& prepared,
     const Console& console,
     Report& report) {
-    return [=, &prepared, &console, &report](const PrimitiveMap& map) {
+    return [=, &prepared, &console, &report](const PrimitiveMap& map, const Progress& progress) {
         Stopwatch watch;
+        StageProgress stages(progress, 2);
         const MapCheckSettings settings = {
             points,
             static_cast<double>(prepared.settings.width),
             static_cast<double>(prepared.settings.height),
             deviation};
-        const auto index = scene_index(prepared.scene, {}, {}, console.cancel);
-        report.check =
-            check_map(map, prepared.scene, prepared.camera, *index, settings, &console.cancel);
+        const auto index = scene_index(prepared.scene, {}, stages.next(1), console.cancel);
+        report.check = check_map(
+            map,
+            prepared.scene,
+            prepared.camera,
+            *index,
+            settings,
+            stages.next(1),
+            &console.cancel);
         report.verify_seconds = watch.lap();
         if (report.check.far > 0)
             refuse(prepared.scene, report.check);
@@ -258,6 +266,47 @@ nlohmann::ordered_json as_json(const Report& report, const DrawnScene& drawn) {
     return json;
 }
 
+/// Draws the scene and writes the drawing; the caller commits the file. Throws Cancelled.
+DrawnScene draw_and_write(
+    PreparedScene& prepared,
+    const DrawSettings& settings,
+    const DrawingSettings& file_settings,
+    const Request& request,
+    OutputFile& file,
+    const Console& console,
+    Report& report) {
+    const CancellableWork work;
+    Stopwatch watch;
+    const bool is_exposed = prepared.settings.exposure.value_or(0) > 0 && has_fills(settings.style)
+        && settings.style != DrawingStyle::ids;
+    ProgressDisplay display(console, "draw");
+    StageProgress stages(display.callback(), is_exposed ? 12 : 10);
+    if (is_exposed)
+        expose_as_picture(prepared, console, stages.next(2));
+    DrawnScene drawn = draw_scene(
+        prepared.scene,
+        prepared.camera,
+        prepared.settings,
+        settings,
+        stages.next(9),
+        &console.cancel);
+    report.draw_seconds = watch.lap() - report.verify_seconds;
+    drawn.drawing.title =
+        request.scene.path == "-" ? "" : std::filesystem::path(request.scene.path).stem().string();
+    drawn.drawing.description = fmt::format("Drawn by vera {}", version);
+    write_drawing(
+        drawn.drawing,
+        file,
+        output_format(request),
+        file_settings,
+        stages.next(1),
+        &console.cancel);
+    stages.next(0); // tells that all are done
+    console.cancel.throw_if_raised();
+    report.write_seconds = watch.lap();
+    return drawn;
+}
+
 void draw(const Request& request, Console& console) {
     const DrawingFormat format = output_format(request);
     DrawSettings settings;
@@ -278,7 +327,16 @@ void draw(const Request& request, Console& console) {
         apply_line_option(line, file_settings.line_styles);
     const std::uint32_t points = whole_of("--verify", request.verify, 0, most_points);
     const ThreadLimit limit(whole_of("--threads", request.threads, 0, most_threads));
-    const TimeLimit time(number_of("--time-limit", request.time_limit, 0, 1e7), console.cancel);
+    std::optional<MemoryLimit> memory;
+    if (!request.memory_limit.empty())
+        memory.emplace(bytes_of("--memory-limit", request.memory_limit));
+    TimeLimit time(
+        number_of("--time-limit", request.time_limit, 0, 1e7),
+        fmt::format(
+            "the drawing takes longer than --time-limit {} allows; nothing is written (a larger "
+            "--deviation makes fewer facets)",
+            request.time_limit),
+        console);
     Report report;
     Stopwatch watch;
 
@@ -288,48 +346,20 @@ void draw(const Request& request, Console& console) {
     OutputFile file(request.output);
     report.read_seconds = watch.lap();
 
-    const auto stopped = [&](const Cancelled& cancelled) {
-        if (time.is_over())
-            throw std::runtime_error(fmt::format(
-                "the drawing takes longer than --time-limit {} allows; nothing is written (a "
-                "larger --deviation makes fewer facets)",
-                request.time_limit));
-        throw cancelled;
-    };
-    if (settings.style == DrawingStyle::flat || settings.style == DrawingStyle::shaded
-        || settings.style == DrawingStyle::toon)
-        try {
-            expose_as_picture(prepared, console);
-        } catch (const Cancelled& cancelled) {
-            stopped(cancelled);
-        }
     if (points > 0)
         settings.check = verification(points, settings.deviation, prepared, console, report);
     DrawnScene drawn;
-    {
-        const CancellableWork work;
-        ProgressDisplay display(console, "draw");
-        try {
-            drawn = draw_scene(
-                prepared.scene,
-                prepared.camera,
-                prepared.settings,
-                settings,
-                display.callback(),
-                &console.cancel);
-            console.cancel.throw_if_raised();
-        } catch (const Cancelled& cancelled) {
-            stopped(cancelled);
-        }
+    try {
+        drawn = draw_and_write(prepared, settings, file_settings, request, file, console, report);
+    } catch (const Cancelled&) {
+        if (time.is_over())
+            throw std::runtime_error(time.message());
+        throw;
     }
-    report.draw_seconds = watch.lap() - report.verify_seconds;
-
-    drawn.drawing.title =
-        request.scene.path == "-" ? "" : std::filesystem::path(request.scene.path).stem().string();
-    drawn.drawing.description = fmt::format("Drawn by vera {}", version);
-    write_drawing(drawn.drawing, file, format, file_settings);
+    time.end();
+    Stopwatch committing;
     file.commit();
-    report.write_seconds = watch.lap();
+    report.write_seconds += committing.lap();
     // Of what is no file, as a pipe, nothing is told.
     std::error_code none;
     if (std::filesystem::is_regular_file(request.output, none))
@@ -434,6 +464,14 @@ void add_draw_command(CLI::App& app, Console& console) {
             "seconds after which the drawing is given up, with exit code 3; 0: none")
         ->type_name("S")
         ->capture_default_str();
+    command
+        ->add_option(
+            "--memory-limit",
+            request->memory_limit,
+            "memory in all, as in 500M or 2.5G: a drawing that is expected to take more is given "
+            "up "
+            "before it does, with exit code 3; else what the machine has")
+        ->type_name("SIZE");
     command->add_option("--threads", request->threads, "0: one for each processor")
         ->type_name("N")
         ->capture_default_str();

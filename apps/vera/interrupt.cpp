@@ -7,6 +7,7 @@
 #include <csignal>
 #include <string_view>
 
+#include "messages.h"
 #include <unistd.h>
 
 namespace vera {
@@ -14,12 +15,12 @@ namespace vera {
 namespace {
 
 Console* interrupted_console = nullptr;
-std::atomic<bool> work_looks_at_the_flag = false;
+std::atomic<bool> is_looked_at = false;
 static_assert(std::atomic<bool>::is_always_lock_free, "the signal handler reads it");
 
 void on_signal(int) {
     CancelFlag& cancel = interrupted_console->cancel;
-    if (work_looks_at_the_flag && !cancel.raised()) {
+    if (is_looked_at && !cancel.raised()) {
         cancel.raise();
         return;
     }
@@ -46,12 +47,22 @@ void stop_on_interrupt(Console& console) {
     sigaction(SIGPIPE, &action, nullptr);
 }
 
+bool work_looks_at_the_flag() noexcept {
+    return is_looked_at;
+}
+
+void end_process(std::string_view message, ExitCode code, const Console& console) noexcept {
+    remove_partial_files();
+    print_error(message, console);
+    _exit(static_cast<int>(code));
+}
+
 CancellableWork::CancellableWork() {
-    work_looks_at_the_flag = true;
+    is_looked_at = true;
 }
 
 CancellableWork::~CancellableWork() {
-    work_looks_at_the_flag = false;
+    is_looked_at = false;
 }
 
 } // namespace vera

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "strategy.h"
 
+#include "vera/base/progress_part.h"
 #include "vera/depth_buffer/depth_buffer.h"
 #include "vera/visible/drawn_faces.h"
 #include "vera/visible/map_raster.h"
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -51,7 +53,8 @@ SeenParts parts_of_depth_buffer(const PreparedScene& prepared, const CancelFlag&
     seen.facets = std::make_unique<const Facets>(facets_of(prepared, camera_map, cancel));
     std::vector<std::uint32_t> sources(seen.facets->triangles.size());
     std::iota(sources.begin(), sources.end(), 0U);
-    const ScreenScene screen = screen_scene(*seen.facets, camera_map, sources);
+    const ScreenScene screen = screen_scene(
+        *seen.facets, camera_map, sources, std::numeric_limits<double>::infinity(), &cancel);
     seen.cut_nearness = screen.cut_nearness;
     std::vector<DepthTriangle> triangles;
     triangles.reserve(screen.triangles.size());
@@ -70,14 +73,20 @@ parts_of_map(const PreparedScene& prepared, const Progress& progress, const Canc
     const CameraMap camera_map(prepared.camera);
     SeenParts seen;
     seen.facets = std::make_unique<const Facets>(facets_of(prepared, camera_map, cancel));
-    DrawnFaces faces = drawn_faces(prepared.scene, *seen.facets, FaceUnit::plane, prepared.camera);
-    ScreenScene screen = screen_scene(*seen.facets, camera_map, faces.of_facet);
+    DrawnFaces faces =
+        drawn_faces(prepared.scene, *seen.facets, FaceUnit::plane, prepared.camera, &cancel);
+    ScreenScene screen = screen_scene(
+        *seen.facets, camera_map, faces.of_facet, std::numeric_limits<double>::infinity(), &cancel);
     seen.cut_nearness = screen.cut_nearness;
-    sort_by_place(screen);
-    const WholePieces whole = whole_pieces(screen, progress, &cancel);
+    sort_by_place(screen, &cancel);
+    StageProgress stages(progress, 5);
+    const WholePieces whole = whole_pieces(screen, stages.next(4), &cancel);
     seen.penetrating = whole.left;
     const auto raster = std::make_shared<const MapRaster>(
-        visible_map(screen, whole.pieces), prepared.settings.width, prepared.settings.height);
+        visible_map(screen, whole.pieces, stages.next(1), &cancel),
+        prepared.settings.width,
+        prepared.settings.height,
+        &cancel);
     seen.of_band = [raster,
                     first_facet = std::move(faces.first_facet),
                     has_areas = prepared.settings.antialiasing.on](

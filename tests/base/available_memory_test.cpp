@@ -2,6 +2,7 @@
 #include "vera/base/available_memory.h"
 
 #include <fstream>
+#include <stdexcept>
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -42,6 +43,39 @@ TEST(AvailableMemory, IsLimitedByTheAddressSpace) {
     if (WIFEXITED(status) && WEXITSTATUS(status) == not_kept)
         GTEST_SKIP() << "limits of the address space are not kept here, as under qemu";
     EXPECT_EQ(status, 0);
+}
+
+TEST(AvailableMemory, IsLimitedToWhatIsLeftOfAGivenSize) {
+    const std::uint64_t whole = available_memory().value_or(0);
+    {
+        const MemoryLimit little(1);
+        EXPECT_EQ(available_memory(), 0U);
+        {
+            const MemoryLimit all(~std::uint64_t{0});
+            EXPECT_GT(available_memory(), 0U);
+        }
+        EXPECT_EQ(available_memory(), 0U);
+    }
+    EXPECT_GT(available_memory().value_or(0), whole / 2);
+    constexpr std::uint64_t large = std::uint64_t{1} << 30U;
+    const MemoryLimit limit(large);
+    EXPECT_LT(available_memory(), large) << "what is held already counts";
+}
+
+TEST(AvailableMemory, IsRequiredWithTheFiguresAndTheRemedy) {
+    require_memory(3e6, 3'000'000, "a thing", "take less");
+    require_memory(1e300, std::nullopt, "a thing", "take less");
+    try {
+        require_memory(3.5 * 0x1p20, std::uint64_t{1} << 21U, "a thing", "take less");
+        FAIL();
+    } catch (const std::runtime_error& error) {
+        EXPECT_STREQ(
+            error.what(),
+            "a thing takes about 4 MiB of memory, and 3 MiB are available: take less");
+    }
+    const MemoryLimit little(1);
+    require_memory(1000, "a trifle", "take less");
+    EXPECT_THROW(require_memory(1e8, "a thing", "take less"), std::runtime_error);
 }
 
 } // namespace

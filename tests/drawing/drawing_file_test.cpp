@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <system_error>
+#include <vector>
 
 #include "drawing/sample_drawing.h"
 #include <gmock/gmock.h>
@@ -29,6 +31,43 @@ TEST(WriteDrawing, WritesTheSameBytesTwice) {
         EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), bytes);
     }
     fs::remove_all(folder);
+}
+
+/// Thousands of squares and lines, so that all loops look at the flag several times.
+Drawing large_drawing() {
+    Drawing drawing = drawing_of_gradients();
+    for (int i = 0; i < 3000; ++i) {
+        const double x = 0.01 * i;
+        drawing.fills.push_back({.rings = {{{x, 1}, {x + 3, 1}, {x + 3, 4}, {x, 4}}}});
+        drawing.strokes.push_back({.points = {{x, 0}, {x, 9}}});
+        drawing.strokes.push_back({.line_class = LineClass::crease, .points = {{x, 0}, {9, x}}});
+    }
+    return drawing;
+}
+
+TEST(WriteDrawing, TellsHowFarItIsAndEndsWhereverItIsToldTo) {
+    const Drawing drawing = large_drawing();
+    for (const Writer write : {&write_svg, &write_pdf, &write_eps, &write_dxf}) {
+        std::vector<double> told;
+        std::string whole;
+        write(
+            drawing, {}, whole, [&](double done) { told.push_back(done); }, nullptr);
+        ASSERT_GT(told.size(), 20U);
+        EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+        EXPECT_LE(told.back(), 1);
+        for (std::size_t last = 0; last + 1 < told.size(); ++last) {
+            CancelFlag cancel;
+            std::size_t call = 0;
+            const auto progress = [&](double) {
+                EXPECT_LE(call, last + 3);
+                if (call++ == last)
+                    cancel.raise();
+            };
+            std::string bytes;
+            EXPECT_THROW(write(drawing, {}, bytes, progress, &cancel), Cancelled)
+                << "raised in call " << last << " of " << told.size();
+        }
+    }
 }
 
 TEST(WriteDrawing, NamesTheFileThatCannotBeWritten) {

@@ -61,12 +61,13 @@ inline Drawing drawing_of_gradients() {
     return drawing;
 }
 
-inline std::string written(
-    void (*write)(const Drawing&, const DrawingSettings&, std::string&),
-    const Drawing& drawing,
-    const DrawingSettings& settings = {}) {
+using Writer = void (*)(
+    const Drawing&, const DrawingSettings&, std::string&, const Progress&, const CancelFlag*);
+
+inline std::string
+written(Writer write, const Drawing& drawing, const DrawingSettings& settings = {}) {
     std::string bytes;
-    write(drawing, settings, bytes);
+    write(drawing, settings, bytes, {}, nullptr);
     return bytes;
 }
 

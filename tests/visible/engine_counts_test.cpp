@@ -101,7 +101,7 @@ ScreenScene hidden_grate(std::size_t count) {
 
 CellCounts counted_cells(const ScreenScene& scene) {
     CellCounts counts;
-    cell_raster(scene, {}, nullptr, &counts);
+    cell_raster(scene, {}, nullptr, {}, &counts);
     return counts;
 }
 

@@ -2,12 +2,18 @@
 #include "vera/base/available_memory.h"
 
 #include <algorithm>
+#include <atomic>
 #include <filesystem>
 #include <fstream>
+#include <limits>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
 #include <sys/resource.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 #include <unistd.h>
 
 namespace vera {
@@ -41,6 +47,22 @@ std::optional<std::uint64_t> left_by_group(const std::filesystem::path& group) {
     return *limit - std::min(held, *limit);
 }
 
+constexpr std::uint64_t no_limit = std::numeric_limits<std::uint64_t>::max();
+
+/// That of the innermost MemoryLimit.
+std::atomic<std::uint64_t> memory_limit = no_limit;
+
+std::optional<std::uint64_t> left_by_memory_limit() {
+    if (memory_limit == no_limit)
+        return std::nullopt;
+    std::ifstream statm("/proc/self/statm");
+    std::uint64_t address_space = 0;
+    std::uint64_t pages = 0;
+    statm >> address_space >> pages;
+    const std::uint64_t held = pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+    return memory_limit - std::min<std::uint64_t>(held, memory_limit);
+}
+
 std::optional<std::uint64_t> left_by_address_space() {
     rlimit limit = {};
     if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
@@ -52,7 +74,21 @@ std::optional<std::uint64_t> left_by_address_space() {
     return limit.rlim_cur - std::min<std::uint64_t>(used, limit.rlim_cur);
 }
 
+/// Gives what was freed, but is kept to be used again, back to the system.
+void give_back_freed_memory() {
+#ifdef __GLIBC__
+    malloc_trim(0);
+#endif
+}
+
 } // namespace
+
+MemoryLimit::MemoryLimit(std::uint64_t bytes)
+    : before_(memory_limit.exchange(bytes)) {}
+
+MemoryLimit::~MemoryLimit() {
+    memory_limit = before_;
+}
 
 std::optional<std::uint64_t> available_memory() {
     std::optional<std::uint64_t> least;
@@ -63,6 +99,7 @@ std::optional<std::uint64_t> available_memory() {
     if (const auto kilobytes = number_behind("/proc/meminfo", "MemAvailable:"))
         limit_by(*kilobytes * 1024);
     limit_by(left_by_address_space());
+    limit_by(left_by_memory_limit());
 
     std::ifstream groups("/proc/self/cgroup");
     std::string line;
@@ -81,6 +118,32 @@ std::optional<std::uint64_t> available_memory() {
         }
     }
     return least;
+}
+
+void require_memory(double bytes, const std::string& what, const std::string& remedy) {
+    constexpr double little = 0x1p23;
+    if (bytes <= little)
+        return;
+    if (const auto available = available_memory();
+        !available || bytes <= static_cast<double>(*available))
+        return;
+    give_back_freed_memory();
+    require_memory(bytes, available_memory(), what, remedy);
+}
+
+void require_memory(
+    double bytes,
+    std::optional<std::uint64_t> available,
+    const std::string& what,
+    const std::string& remedy) {
+    if (!available || bytes <= static_cast<double>(*available))
+        return;
+    const auto mebibytes = [](double size) {
+        return std::to_string(static_cast<std::uint64_t>(size / 0x1p20) + 1);
+    };
+    throw std::runtime_error(
+        what + " takes about " + mebibytes(bytes) + " MiB of memory, and "
+        + mebibytes(static_cast<double>(*available)) + " MiB are available: " + remedy);
 }
 
 } // namespace vera

@@ -67,20 +67,22 @@ void write_drawing(
     const Drawing& drawing,
     OutputFile& file,
     DrawingFormat format,
-    const DrawingSettings& settings) {
+    const DrawingSettings& settings,
+    const Progress& progress,
+    const CancelFlag* cancel) {
     std::string bytes;
     switch (format) {
     case DrawingFormat::svg:
-        write_svg(drawing, settings, bytes);
+        write_svg(drawing, settings, bytes, progress, cancel);
         break;
     case DrawingFormat::pdf:
-        write_pdf(drawing, settings, bytes);
+        write_pdf(drawing, settings, bytes, progress, cancel);
         break;
     case DrawingFormat::eps:
-        write_eps(drawing, settings, bytes);
+        write_eps(drawing, settings, bytes, progress, cancel);
         break;
     case DrawingFormat::dxf:
-        write_dxf(drawing, settings, bytes);
+        write_dxf(drawing, settings, bytes, progress, cancel);
         break;
     }
     file.write(bytes);

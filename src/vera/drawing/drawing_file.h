@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "vera/base/parallel.h"
 #include "vera/drawing/drawing.h"
 
 #include <filesystem>
@@ -54,21 +55,42 @@ struct DrawingSettings {
 
 // Each writer appends the bytes of a whole file. The same drawing and settings give the same bytes.
 // Points that coincide when they are rounded are one; rings of fewer than three points, and lines
-// without length, are left out. A number that is not finite is a broken invariant.
+// without length, are left out. A number that is not finite is a broken invariant. Each tells how
+// far it is, and throws Cancelled soon after the flag is raised.
 
 /// An SVG with a layer for the outlines and one for each class of lines, as Inkscape knows them,
 /// and a group with an id for each group of outlines.
-void write_svg(const Drawing& drawing, const DrawingSettings& settings, std::string& bytes);
+void write_svg(
+    const Drawing& drawing,
+    const DrawingSettings& settings,
+    std::string& bytes,
+    const Progress& progress = {},
+    const CancelFlag* cancel = nullptr);
 
 /// A PDF 1.7 of one page with the same layers.
-void write_pdf(const Drawing& drawing, const DrawingSettings& settings, std::string& bytes);
+void write_pdf(
+    const Drawing& drawing,
+    const DrawingSettings& settings,
+    std::string& bytes,
+    const Progress& progress = {},
+    const CancelFlag* cancel = nullptr);
 
 /// An Encapsulated PostScript of level 2, or of level 3 where there are gradients.
-void write_eps(const Drawing& drawing, const DrawingSettings& settings, std::string& bytes);
+void write_eps(
+    const Drawing& drawing,
+    const DrawingSettings& settings,
+    std::string& bytes,
+    const Progress& progress = {},
+    const CancelFlag* cancel = nullptr);
 
 /// The lines alone, as an ASCII DXF of AutoCAD 2000 (AC1015) with a layer for each class: y upward
 /// from the picture's lower border, in millimetres where the page has a width, else in pixels.
-void write_dxf(const Drawing& drawing, const DrawingSettings& settings, std::string& bytes);
+void write_dxf(
+    const Drawing& drawing,
+    const DrawingSettings& settings,
+    std::string& bytes,
+    const Progress& progress = {},
+    const CancelFlag* cancel = nullptr);
 
 /// Writes the drawing to a file, whole or not at all; "-" is standard output. Throws
 /// std::system_error, which names the path, when it cannot be written.
@@ -79,11 +101,13 @@ void write_drawing(
     const DrawingSettings& settings = {});
 
 /// The same into a file that was opened earlier, so that what makes it impossible shows before the
-/// drawing is computed. The caller commits.
+/// drawing is computed. The caller commits. Throws Cancelled as well.
 void write_drawing(
     const Drawing& drawing,
     OutputFile& file,
     DrawingFormat format,
-    const DrawingSettings& settings = {});
+    const DrawingSettings& settings = {},
+    const Progress& progress = {},
+    const CancelFlag* cancel = nullptr);
 
 } // namespace vera

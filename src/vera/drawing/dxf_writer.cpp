@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "vera/base/long_loop.h"
+#include "vera/base/progress_part.h"
 #include "vera/drawing/document_text.h"
 #include "vera/drawing/elliptic_arc.h"
 #include "vera/drawing/layers.h"
@@ -67,10 +69,16 @@ int line_weight(double millimeters) {
 /// of its own, its handle.
 class DxfWriter {
 public:
-    DxfWriter(const Drawing& drawing, const DrawingSettings& settings)
+    DxfWriter(
+        const Drawing& drawing,
+        const DrawingSettings& settings,
+        const Progress& progress,
+        const CancelFlag* cancel)
         : drawing_(drawing)
         , lattice_(settings.precision)
-        , layers_(layers(drawing, settings, lattice_))
+        , layers_(layers(drawing, settings, lattice_, progress_part(progress, 0, 2), cancel))
+        , stages_(progress_part(progress, 1, 2), static_cast<double>(1 + layers_.lines.size()))
+        , cancel_(cancel)
         , in_millimeters_(settings.page_width_millimeters > 0)
         , per_pixel_(in_millimeters_ ? settings.page_width_millimeters / drawing.width : 1)
         , millimeters_per_pixel_(in_millimeters_ ? per_pixel_ : 25.4 / 96) {
@@ -303,8 +311,11 @@ private:
         begin_section("ENTITIES");
         for (const LineLayer& layer : layers_.lines) {
             const std::string_view name = name_of(layer.style.line_class);
-            for (const SnappedPath& line : layer.lines)
-                write_path(line, name);
+            const LongLoop loop(layer.lines.size(), stages_.next(1), cancel_, 256);
+            for (std::size_t i = 0; i < layer.lines.size(); ++i) {
+                loop.turn(i);
+                write_path(layer.lines[i], name);
+            }
         }
         end_section();
     }
@@ -404,6 +415,8 @@ private:
     const Drawing& drawing_;
     Lattice lattice_;
     Layers layers_;
+    StageProgress stages_;
+    const CancelFlag* cancel_;
     bool in_millimeters_;
     double per_pixel_; ///< units of the file
     double millimeters_per_pixel_;
@@ -416,8 +429,13 @@ private:
 
 } // namespace
 
-void write_dxf(const Drawing& drawing, const DrawingSettings& settings, std::string& bytes) {
-    bytes += DxfWriter(drawing, settings).written();
+void write_dxf(
+    const Drawing& drawing,
+    const DrawingSettings& settings,
+    std::string& bytes,
+    const Progress& progress,
+    const CancelFlag* cancel) {
+    bytes += DxfWriter(drawing, settings, progress, cancel).written();
 }
 
 } // namespace vera

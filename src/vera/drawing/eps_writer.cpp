@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "vera/base/progress_part.h"
 #include "vera/drawing/document_text.h"
 #include "vera/drawing/page_content.h"
 
@@ -10,9 +11,15 @@ namespace vera {
 
 using namespace detail;
 
-void write_eps(const Drawing& drawing, const DrawingSettings& settings, std::string& bytes) {
+void write_eps(
+    const Drawing& drawing,
+    const DrawingSettings& settings,
+    std::string& bytes,
+    const Progress& progress,
+    const CancelFlag* cancel) {
+    StageProgress stages(progress, 2);
     const Lattice lattice(settings.precision);
-    const Layers content = layers(drawing, settings, lattice);
+    const Layers content = layers(drawing, settings, lattice, stages.next(1), cancel);
     const Gradients gradients(content.fills);
     const PageSize page = page_size(drawing, settings);
     const std::string width = decimal(page.width, 4);
@@ -58,7 +65,8 @@ void write_eps(const Drawing& drawing, const DrawingSettings& settings, std::str
             pattern_matrix(gradients[i], page, drawing.width));
     const LayerMarks marks = {
         [](std::size_t, const std::string& name) { return "% " + plain_line(name) + "\n"; }, ""};
-    bytes += page_content(drawing, settings, lattice, content, gradients, marks);
+    bytes +=
+        page_content(drawing, settings, lattice, content, gradients, marks, stages.next(1), cancel);
     bytes += "grestore\nend\n%%EOF\n";
 }
 

@@ -2,6 +2,8 @@
 #include "vera/drawing/layers.h"
 
 #include "vera/base/check.h"
+#include "vera/base/long_loop.h"
+#include "vera/base/progress_part.h"
 #include "vera/drawing/seams.h"
 
 #include <array>
@@ -29,11 +31,18 @@ std::string layer_name(LineClass line_class) {
 }
 
 std::vector<LineLayer> line_layers(
-    std::span<const Stroke> strokes, const DrawingSettings& settings, const Lattice& lattice) {
+    std::span<const Stroke> strokes,
+    const DrawingSettings& settings,
+    const Lattice& lattice,
+    const Progress& progress,
+    const CancelFlag* cancel) {
     std::array<std::vector<SnappedPath>, line_class_names.size()> of_class;
-    for (const Stroke& stroke : strokes)
-        if (std::optional<SnappedPath> line = snapped_line(stroke, lattice))
-            of_class[static_cast<std::size_t>(stroke.line_class)].push_back(std::move(*line));
+    const LongLoop loop(strokes.size(), progress, cancel);
+    for (std::size_t i = 0; i < strokes.size(); ++i) {
+        loop.turn(i);
+        if (std::optional<SnappedPath> line = snapped_line(strokes[i], lattice))
+            of_class[static_cast<std::size_t>(strokes[i].line_class)].push_back(std::move(*line));
+    }
     std::vector<LineLayer> layers;
     for (std::size_t i = 0; i < of_class.size(); ++i)
         if (const auto line_class = static_cast<LineClass>(i); !of_class[i].empty())
@@ -44,10 +53,19 @@ std::vector<LineLayer> line_layers(
 
 } // namespace
 
-Layers layers(const Drawing& drawing, const DrawingSettings& settings, const Lattice& lattice) {
+Layers layers(
+    const Drawing& drawing,
+    const DrawingSettings& settings,
+    const Lattice& lattice,
+    const Progress& progress,
+    const CancelFlag* cancel) {
+    StageProgress stages(progress, 3);
     Layers result;
     PassedPoints passed;
-    for (const FilledOutline& fill : drawing.fills) {
+    const LongLoop fills(drawing.fills.size(), stages.next(1), cancel, 256);
+    for (std::size_t i = 0; i < drawing.fills.size(); ++i) {
+        fills.turn(i);
+        const FilledOutline& fill = drawing.fills[i];
         FilledPath path = {&fill, snapped_rings(fill, lattice), {}};
         if (path.rings.empty())
             continue;
@@ -58,10 +76,13 @@ Layers layers(const Drawing& drawing, const DrawingSettings& settings, const Lat
     }
     const double seam_width = settings.seam_width * lattice.units_per_pixel();
     VERA_CHECK(seam_width >= 0 && std::isfinite(seam_width));
-    for (FilledPath& path : result.fills)
-        draw_ends_back(path.seams, path.rings, passed, seam_width);
+    const LongLoop seams(result.fills.size(), stages.next(1), cancel, 256);
+    for (std::size_t i = 0; i < result.fills.size(); ++i) {
+        seams.turn(i);
+        draw_ends_back(result.fills[i].seams, result.fills[i].rings, passed, seam_width);
+    }
 
-    result.lines = line_layers(drawing.strokes, settings, lattice);
+    result.lines = line_layers(drawing.strokes, settings, lattice, stages.next(1), cancel);
     return result;
 }
 

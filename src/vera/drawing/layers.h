@@ -32,7 +32,13 @@ struct Layers {
     std::vector<LineLayer> lines;
 };
 
-Layers layers(const Drawing& drawing, const DrawingSettings& settings, const Lattice& lattice);
+/// Throws Cancelled.
+Layers layers(
+    const Drawing& drawing,
+    const DrawingSettings& settings,
+    const Lattice& lattice,
+    const Progress& progress = {},
+    const CancelFlag* cancel = nullptr);
 
 /// What people call the layer of the outlines.
 inline constexpr char fills_name[] = "Fills";

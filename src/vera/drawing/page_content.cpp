@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/drawing/page_content.h"
 
+#include "vera/base/long_loop.h"
+#include "vera/base/progress_part.h"
 #include "vera/drawing/elliptic_arc.h"
 
 #include <cstdint>
@@ -159,11 +161,14 @@ std::string page_content(
     const Lattice& lattice,
     const Layers& layers,
     const Gradients& gradients,
-    const LayerMarks& marks) {
+    const LayerMarks& marks,
+    const Progress& progress,
+    const CancelFlag* cancel) {
     constexpr int butt_cap = 0;
     constexpr int round_cap = 1;
     const std::vector<std::string> names = layer_names(layers);
     std::size_t number = 0;
+    StageProgress stages(progress, static_cast<double>(1 + layers.lines.size()));
 
     PageWriter page(lattice, gradients);
     page.begin_page(page_size(drawing, settings), drawing.width);
@@ -173,7 +178,10 @@ std::string page_content(
         page.write(marks.begin(number, names[number]));
         ++number;
         page.set_pen(settings.seam_width, butt_cap, {});
-        for (const FilledPath& fill : layers.fills) {
+        const LongLoop loop(layers.fills.size(), stages.next(1), cancel, 256);
+        for (std::size_t i = 0; i < layers.fills.size(); ++i) {
+            loop.turn(i);
+            const FilledPath& fill = layers.fills[i];
             page.fill(fill.rings, *fill.outline);
             if (!fill.seams.empty())
                 page.stroke_seams(fill.seams, *fill.outline);
@@ -185,8 +193,11 @@ std::string page_content(
         ++number;
         const LineStyle& style = layer.style;
         page.set_pen(style.width, style.dashes.empty() ? round_cap : butt_cap, style.dashes);
-        for (const SnappedPath& line : layer.lines)
-            page.stroke({&line, 1}, style.color);
+        const LongLoop loop(layer.lines.size(), stages.next(1), cancel, 256);
+        for (std::size_t i = 0; i < layer.lines.size(); ++i) {
+            loop.turn(i);
+            page.stroke({&layer.lines[i], 1}, style.color);
+        }
         page.write(marks.end);
     }
     page.end_page();

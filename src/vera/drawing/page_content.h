@@ -21,13 +21,15 @@ std::vector<std::string> layer_names(const Layers& layers);
 
 /// The drawing in the operators of a PDF page, which an EPS defines for itself (q cm rg RG cs scn
 /// CS SCN w J j d re m l c h f S Q). Coordinates are whole numbers, in units of the lattice.
-/// Gradient number i is the pattern /Pi.
+/// Gradient number i is the pattern /Pi. Throws Cancelled.
 std::string page_content(
     const Drawing& drawing,
     const DrawingSettings& settings,
     const Lattice& lattice,
     const Layers& layers,
     const Gradients& gradients,
-    const LayerMarks& marks);
+    const LayerMarks& marks,
+    const Progress& progress,
+    const CancelFlag* cancel);
 
 } // namespace vera::detail

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "vera/base/long_loop.h"
+#include "vera/base/progress_part.h"
 #include "vera/base/random.h"
 #include "vera/drawing/document_text.h"
 #include "vera/drawing/page_content.h"
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <stdexcept>
 #include <string>
@@ -18,18 +22,48 @@ namespace {
 
 using namespace detail;
 
-std::string deflated(const std::string& bytes) {
-    uLongf size = compressBound(bytes.size());
-    std::string packed(size, '\0');
-    const int result = compress2(
-        reinterpret_cast<Bytef*>(packed.data()),
-        &size,
-        reinterpret_cast<const Bytef*>(bytes.data()),
-        bytes.size(),
-        Z_DEFAULT_COMPRESSION);
-    if (result != Z_OK)
-        throw std::runtime_error("the memory does not suffice to compress a drawing");
-    packed.resize(size);
+/// A stream of zlib that ends with its scope.
+class Deflation {
+public:
+    Deflation() {
+        if (deflateInit(&stream_, Z_DEFAULT_COMPRESSION) != Z_OK)
+            throw std::runtime_error("the memory does not suffice to compress a drawing");
+    }
+
+    ~Deflation() { deflateEnd(&stream_); }
+
+    Deflation(const Deflation&) = delete;
+    Deflation& operator=(const Deflation&) = delete;
+
+    /// Appends what the bytes, the last ones or not, give.
+    void add(std::string_view bytes, bool is_last, std::string& packed) {
+        std::array<char, 1U << 15U> room;
+        // zlib's way to name what it only reads.
+        stream_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data())); // NOLINT
+        stream_.avail_in = static_cast<uInt>(bytes.size());
+        do {
+            stream_.next_out = reinterpret_cast<Bytef*>(room.data());
+            stream_.avail_out = static_cast<uInt>(room.size());
+            deflate(&stream_, is_last ? Z_FINISH : Z_NO_FLUSH);
+            packed.append(room.data(), room.size() - stream_.avail_out);
+        } while (stream_.avail_out == 0);
+    }
+
+private:
+    z_stream stream_ = {};
+};
+
+std::string deflated(
+    std::string_view bytes, const Progress& progress = {}, const CancelFlag* cancel = nullptr) {
+    constexpr std::size_t part = 1U << 18U;
+    const std::size_t parts = std::max<std::size_t>((bytes.size() + part - 1) / part, 1);
+    std::string packed;
+    Deflation deflation;
+    const LongLoop loop(parts, progress, cancel, 1);
+    for (std::size_t i = 0; i < parts; ++i) {
+        loop.turn(i);
+        deflation.add(bytes.substr(i * part, part), i + 1 == parts, packed);
+    }
     return packed;
 }
 
@@ -44,8 +78,12 @@ std::string digest(std::string_view bytes) {
     return fmt::format("{:016X}{:016X}", scrambled_bits(first), second);
 }
 
-std::string stream_object(const std::string& entries, const std::string& bytes) {
-    const std::string packed = deflated(bytes);
+std::string stream_object(
+    const std::string& entries,
+    const std::string& bytes,
+    const Progress& progress = {},
+    const CancelFlag* cancel = nullptr) {
+    const std::string packed = deflated(bytes, progress, cancel);
     return fmt::format(
         "<<{}/Length {}/Filter/FlateDecode>>\nstream\n{}\nendstream",
         entries,
@@ -138,11 +176,17 @@ private:
 
 } // namespace
 
-void write_pdf(const Drawing& drawing, const DrawingSettings& settings, std::string& bytes) {
+void write_pdf(
+    const Drawing& drawing,
+    const DrawingSettings& settings,
+    std::string& bytes,
+    const Progress& progress,
+    const CancelFlag* cancel) {
     enum : std::size_t { catalog = 1, pages, page, content, information, first_layer };
 
+    StageProgress stages(progress, 4);
     const Lattice lattice(settings.precision);
-    const Layers drawn = layers(drawing, settings, lattice);
+    const Layers drawn = layers(drawing, settings, lattice, stages.next(1), cancel);
     const Gradients gradients(drawn.fills);
     const std::vector<std::string> names = layer_names(drawn);
     const PageSize size = page_size(drawing, settings);
@@ -168,7 +212,8 @@ void write_pdf(const Drawing& drawing, const DrawingSettings& settings, std::str
     const LayerMarks marks = {
         [](std::size_t layer, const std::string&) { return fmt::format("/OC /L{} BDC\n", layer); },
         "EMC\n"};
-    const std::string text = page_content(drawing, settings, lattice, drawn, gradients, marks);
+    const std::string text =
+        page_content(drawing, settings, lattice, drawn, gradients, marks, stages.next(1), cancel);
 
     PdfObjects objects(bytes);
     objects.add(fmt::format("<</Type/Catalog/Pages {} 0 R{}>>", +pages, layer_list));
@@ -182,7 +227,7 @@ void write_pdf(const Drawing& drawing, const DrawingSettings& settings, std::str
         resources,
         patterns,
         +content));
-    objects.add(stream_object("", text));
+    objects.add(stream_object("", text, stages.next(2), cancel));
     std::string texts = "/Producer(VERA)";
     if (!drawing.title.empty())
         texts += "/Title" + pdf_string(drawing.title);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "vera/base/long_loop.h"
+#include "vera/base/progress_part.h"
 #include "vera/drawing/document_text.h"
 #include "vera/drawing/layers.h"
 #include "vera/drawing/paints.h"
@@ -27,12 +29,19 @@ std::string css_color(DrawingColor color) {
 
 class SvgWriter {
 public:
-    SvgWriter(const Drawing& drawing, const DrawingSettings& settings, std::string& text)
+    SvgWriter(
+        const Drawing& drawing,
+        const DrawingSettings& settings,
+        const Progress& progress,
+        const CancelFlag* cancel,
+        std::string& text)
         : drawing_(drawing)
         , settings_(settings)
         , lattice_(settings.precision)
-        , layers_(layers(drawing, settings, lattice_))
+        , layers_(layers(drawing, settings, lattice_, progress_part(progress, 0, 2), cancel))
         , gradients_(layers_.fills)
+        , stages_(progress_part(progress, 1, 2), static_cast<double>(1 + layers_.lines.size()))
+        , cancel_(cancel)
         , text_(text) {
         // Before the outlines take theirs, so that a layer's id is always the same.
         if (drawing.background)
@@ -183,7 +192,10 @@ private:
             if (group && !group->empty())
                 text_ += "</g>\n";
         };
-        for (const FilledPath& fill : layers_.fills) {
+        const LongLoop loop(layers_.fills.size(), stages_.next(1), cancel_, 256);
+        for (std::size_t i = 0; i < layers_.fills.size(); ++i) {
+            loop.turn(i);
+            const FilledPath& fill = layers_.fills[i];
             if (!group || fill.outline->group != *group) {
                 end_group();
                 group = &fill.outline->group;
@@ -226,8 +238,11 @@ private:
             "inkscape:label=\"{1}\">\n",
             id,
             xml_text(layer.name));
-        for (const SnappedPath& line : layer.lines)
-            text_ += fmt::format("<path d=\"{}\"/>\n", path_data({&line, 1}));
+        const LongLoop loop(layer.lines.size(), stages_.next(1), cancel_, 256);
+        for (std::size_t i = 0; i < layer.lines.size(); ++i) {
+            loop.turn(i);
+            text_ += fmt::format("<path d=\"{}\"/>\n", path_data({&layer.lines[i], 1}));
+        }
         text_ += "</g>\n";
     }
 
@@ -240,6 +255,8 @@ private:
     Lattice lattice_;
     Layers layers_;
     Gradients gradients_;
+    StageProgress stages_;
+    const CancelFlag* cancel_;
     std::string& text_;
     UniqueIds ids_;
     std::string background_id_;
@@ -250,8 +267,13 @@ private:
 
 } // namespace
 
-void write_svg(const Drawing& drawing, const DrawingSettings& settings, std::string& bytes) {
-    SvgWriter(drawing, settings, bytes).write();
+void write_svg(
+    const Drawing& drawing,
+    const DrawingSettings& settings,
+    std::string& bytes,
+    const Progress& progress,
+    const CancelFlag* cancel) {
+    SvgWriter(drawing, settings, progress, cancel, bytes).write();
 }
 
 } // namespace vera

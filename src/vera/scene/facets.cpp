@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/scene/facets.h"
 
+#include "vera/base/available_memory.h"
 #include "vera/base/check.h"
 #include "vera/base/diagnostic.h"
+#include "vera/base/long_loop.h"
 #include "vera/scene/crossings.h"
 #include "vera/scene/curved_facets.h"
 #include "vera/scene/polygon_triangles.h"
@@ -10,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <string>
 
 namespace vera {
 
@@ -63,9 +66,10 @@ bool against_order(Vec3 normal, Vec3 by_normal, Outside outside) {
 
 class FacetBuilder {
 public:
-    FacetBuilder(const Scene& scene, const Deviation& deviation)
+    FacetBuilder(const Scene& scene, const Deviation& deviation, const CancelFlag* cancel)
         : scene_(scene)
-        , deviation_(deviation) {}
+        , deviation_(deviation)
+        , cancel_(cancel) {}
 
     /// Adds the facets of all items that are not subscene calls.
     void add(const Visit& visit, const Item& item) {
@@ -120,9 +124,21 @@ private:
     void add_triangle(std::array<std::uint32_t, 3> corners, std::uint32_t piece, bool turned) {
         if (facets_.triangles.size() + 1 >= too_many)
             refuse(scene_);
+        if (facets_.triangles.size() == facets_.triangles.capacity())
+            require_room();
         if (turned != visit_->mirrored)
             std::swap(corners[1], corners[2]);
         facets_.triangles.push_back({corners, piece, primitive_, material_});
+    }
+
+    /// For twice as many facets, which the list takes next, with what is made of each at once.
+    void require_room() const {
+        constexpr double per_facet = 250;
+        const std::size_t next = 2 * facets_.triangles.size();
+        require_memory(
+            per_facet * static_cast<double>(next),
+            "the scene in " + std::to_string(next) + " facets",
+            "a larger --deviation makes fewer of curved surfaces, and simpler meshes have fewer");
     }
 
     void add_plane(const std::array<Vec3, 3>& corners, bool turned) {
@@ -159,7 +175,9 @@ private:
         mesh_corners_.assign(mesh.positions.size(), no_corner);
         const auto& normal_indices =
             mesh.normal_indices.empty() ? mesh.position_indices : mesh.normal_indices;
+        const LongLoop loop(mesh.triangle_count(), {}, cancel_);
         for (std::uint32_t i = 0; i < mesh.triangle_count(); ++i) {
+            loop.turn(i);
             const std::size_t first = 3 * std::size_t{i};
             std::array<std::uint32_t, 3> corners = {};
             std::array<Vec3, 3> normals;
@@ -196,6 +214,7 @@ private:
 
     const Scene& scene_;
     const Deviation& deviation_;
+    const CancelFlag* cancel_;
     Facets facets_;
     const Visit* visit_ = nullptr;
     MaterialId material_ = inherited_material;
@@ -223,7 +242,7 @@ Facets facets(const Scene& scene, const Deviation& deviation, const CancelFlag* 
     // Almost every primitive has a facet: what is hopeless is told before it takes all memory.
     if (scene.geometry.primitive_count >= too_many)
         refuse(scene);
-    FacetBuilder builder(scene, deviation);
+    FacetBuilder builder(scene, deviation, cancel);
 
     // A stack of our own: subscenes may nest to any depth.
     std::vector<Visit> stack(1);
@@ -234,8 +253,7 @@ Facets facets(const Scene& scene, const Deviation& deviation, const CancelFlag* 
             stack.pop_back();
             continue;
         }
-        if (cancel != nullptr)
-            cancel->throw_if_raised();
+        stop_if_raised(cancel);
         const Item& item = visit.geometry->items[visit.next_item++];
         if (item.kind != ItemKind::subscene_call) {
             builder.add(visit, item);

@@ -38,7 +38,8 @@ constexpr std::size_t most_facets_of_a_primitive = std::size_t{1} << 20U;
 
 /// The scene's facets. Plane faces and patches keep their corners, curved surfaces have all theirs
 /// on the surface. Closed surfaces are closed, corner number by corner number. The primitives must
-/// be numbered. Throws Cancelled, and InputError where there are 2^31 facets or corners, or more.
+/// be numbered. Throws Cancelled, InputError where there are 2^31 facets or corners, or more, and
+/// std::runtime_error before they take all memory.
 Facets facets(const Scene& scene, const Deviation& deviation, const CancelFlag* cancel = nullptr);
 
 } // namespace vera

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/cell_raster.h"
 
+#include "vera/base/long_loop.h"
+#include "vera/base/progress_part.h"
+#include "vera/visible/drawing_memory.h"
 #include "vera/visible/edge_sweep.h"
 #include "vera/visible/point_numbers.h"
 #include "vera/visible/sheets.h"
@@ -113,21 +116,37 @@ std::vector<std::uint8_t> cells_along(
     return is_asked;
 }
 
+/// How much of the time goes into what all edges are compared with.
+constexpr double part_of_preparation = 0.2;
+
 /// Of the whole scene or, where only that was changed, for the edges near it.
-CellRaster
-raster_of(const ScreenScene& scene, const SceneChange* change, const CancelFlag* cancel) {
+CellRaster raster_of(
+    const ScreenScene& scene,
+    const SceneChange* change,
+    const Progress& progress,
+    const CancelFlag* cancel) {
+    StageProgress stages(progress_between(progress, 0, part_of_preparation), 6);
+    const auto next_stage = [&] {
+        stop_if_raised(cancel);
+        stages.next(1);
+    };
+    next_stage();
+    require_raster_memory(scene);
     CellRaster raster = {scene, slopes_of(scene), {}, {}, {}, {}, {}, {}, {}, {}};
     raster.corners.resize(scene.triangles.size());
     for (std::size_t i = 0; i < raster.corners.size(); ++i) {
         const std::array<ScreenVertex, 3> corners = corners_of(scene, scene.triangles[i]);
         raster.corners[i] = {corners[0].point, corners[1].point, corners[2].point};
     }
+    next_stage();
     raster.edges = screen_edges(scene);
+    next_stage();
     raster.shadowed_source = shadowed_sources(scene, raster.edges);
     const std::vector<EdgeNeighbours> neighbours = edge_neighbours(scene, raster.edges);
     raster.is_inner.resize(neighbours.size());
     for (std::size_t i = 0; i < neighbours.size(); ++i)
         raster.is_inner[i] = is_inner(scene, neighbours[i]) ? 1 : 0;
+    next_stage();
     AskedCells asked;
     if (change != nullptr)
         asked = [&](const Cells& cells) {
@@ -135,11 +154,14 @@ raster_of(const ScreenScene& scene, const SceneChange* change, const CancelFlag*
             return cells_along(raster.is_near_change, raster, cells);
         };
     raster.cells = cells_of(scene, raster.slopes, cancel, asked);
-    block_by_sheets(raster.cells, {scene, raster.edges, neighbours, raster.slopes});
+    next_stage();
+    block_by_sheets(raster.cells, {scene, raster.edges, neighbours, raster.slopes}, cancel);
     raster.shadow_cells = taken_shadows(raster.cells, scene);
+    next_stage();
     const std::vector<double> nearness = nearness_of_edges(raster);
     raster.is_hidden.resize(raster.edges.edges.size());
     parallel_ranges(raster.is_hidden.size(), 4096, [&](std::size_t first, std::size_t last) {
+        stop_if_raised(cancel);
         for (std::size_t i = first; i < last; ++i)
             raster.is_hidden[i] = is_hidden(raster, raster.edges.edges[i], nearness[i]) ? 1 : 0;
     });
@@ -180,6 +202,90 @@ private:
     std::vector<std::unique_ptr<EdgeSweep>> idle_;
 };
 
+/// An edge, and how many marks at equal distances lie on it where all edges are laid end to end.
+struct MarkedEdge {
+    std::uint32_t edge = 0;
+    double marks = 0;
+    double weight = 0; ///< about as many cells as it touches
+};
+
+/// One edge of 256 or so, but enough of them in any case: long ones more often, since more can
+/// cross them.
+std::vector<MarkedEdge> marked_edges(const CellRaster& raster, double& distance) {
+    constexpr double least_marks = 512;
+    constexpr double edges_per_mark = 256;
+    const auto weight_of = [&](const ScreenEdges::Edge& edge) {
+        const ScreenStep along =
+            step(raster.scene.vertices[edge.begin].point, raster.scene.vertices[edge.end].point);
+        return 1
+            + static_cast<double>(std::abs(along.x) + std::abs(along.y))
+            / std::ldexp(1.0, raster.cells.shift);
+    };
+    const std::vector<ScreenEdges::Edge>& edges = raster.edges.edges;
+    double whole = 0;
+    for (const ScreenEdges::Edge& edge : edges)
+        whole += weight_of(edge);
+    distance = whole / std::max(least_marks, static_cast<double>(edges.size()) / edges_per_mark);
+    std::vector<MarkedEdge> marked;
+    double next = distance / 2;
+    double end = 0;
+    for (std::uint32_t i = 0; i < edges.size(); ++i) {
+        const double weight = weight_of(edges[i]);
+        end += weight;
+        if (next >= end)
+            continue;
+        const double marks = std::floor((end - next) / distance) + 1;
+        next += marks * distance;
+        marked.push_back({i, marks, weight});
+    }
+    return marked;
+}
+
+/// About how much will be found.
+struct Expected {
+    double pieces = 0;
+    double pairs = 0; ///< that pass through each other, as often as edges tell them
+};
+
+/// From a few edges (systematic sampling, in proportion to their lengths).
+Expected expected(const CellRaster& raster, const CancelFlag* cancel) {
+    EdgeSweeps sweeps(raster); // of its own: what they count is not counted
+    double distance = 0;
+    const std::vector<MarkedEdge> marked = marked_edges(raster, distance);
+    std::vector<Expected> found(marked.size());
+    parallel_ranges(marked.size(), 16, [&](std::size_t first, std::size_t last) {
+        stop_if_raised(cancel);
+        std::unique_ptr<EdgeSweep> sweep = sweeps.take();
+        for (std::size_t i = first; i < last; ++i) {
+            VisiblePieces pieces;
+            sweep->follow(marked[i].edge, pieces);
+            found[i] = {
+                static_cast<double>(pieces.pieces.size()),
+                static_cast<double>(pieces.penetrating.size())};
+        }
+        sweeps.give_back(std::move(sweep));
+    });
+    Expected all;
+    for (std::size_t i = 0; i < marked.size(); ++i) {
+        const double edges = distance * marked[i].marks / marked[i].weight; // that it stands for
+        all.pieces += edges * found[i].pieces;
+        all.pairs += edges * found[i].pairs;
+    }
+    return all;
+}
+
+/// Of so few edges there are never so many pieces that memory could run out.
+constexpr std::size_t few_edges = 1024;
+
+void check_memory(const CellRaster& raster, const ExpectPieces& expect, const CancelFlag* cancel) {
+    if (raster.edges.edges.size() < few_edges)
+        return;
+    const auto [pieces, pairs] = expected(raster, cancel);
+    require_piece_memory(pieces, pairs);
+    if (expect)
+        expect(pieces);
+}
+
 /// Of the pieces before, those of edges from this one on.
 auto first_piece_of(const std::vector<VisiblePiece>& before, ScreenEdges::Edge edge) {
     return std::lower_bound(
@@ -207,6 +313,7 @@ void add_piece(
 std::vector<VisiblePieces> follow_edges(
     const CellRaster& raster,
     const VisiblePieces& before,
+    const ExpectPieces& expect,
     const Progress& progress,
     const CancelFlag* cancel,
     CellCounts& counts) {
@@ -214,6 +321,7 @@ std::vector<VisiblePieces> follow_edges(
     const std::vector<ScreenEdges::Edge>& edges = raster.edges.edges;
     std::vector<VisiblePieces> parts((edges.size() + part - 1) / part);
     EdgeSweeps sweeps(raster);
+    check_memory(raster, expect, cancel);
     std::mutex mutex;
     std::size_t done = 0;
     const auto follow_part = [&](std::size_t number, EdgeSweep& sweep) {
@@ -221,8 +329,8 @@ std::vector<VisiblePieces> follow_edges(
         auto kept = first_piece_of(before.pieces, edges[number * part]);
         VisiblePieces found;
         for (std::size_t i = number * part; i < end; ++i) {
-            if (cancel != nullptr && i % 16 == 0)
-                cancel->throw_if_raised();
+            if (i % 16 == 0)
+                stop_if_raised(cancel);
             const bool is_followed = raster.is_near_change.empty() || raster.is_near_change[i] != 0;
             if (is_followed)
                 sweep.follow(static_cast<std::uint32_t>(i), found);
@@ -313,12 +421,19 @@ VisiblePieces cell_raster(
     const ScreenScene& scene,
     const Progress& progress,
     const CancelFlag* cancel,
+    const ExpectPieces& expect,
     CellCounts* counts) {
     std::vector<VisiblePieces> parts;
     {
-        const CellRaster raster = raster_of(scene, nullptr, cancel);
+        const CellRaster raster = raster_of(scene, nullptr, progress, cancel);
         CellCounts counted;
-        parts = follow_edges(raster, {}, progress, cancel, counted);
+        parts = follow_edges(
+            raster,
+            {},
+            expect,
+            progress_between(progress, part_of_preparation, 1),
+            cancel,
+            counted);
         if (counts != nullptr) {
             count_cells(raster, counted);
             *counts = counted;
@@ -334,7 +449,8 @@ VisiblePieces cell_raster_after(
     VisiblePieces before,
     const ScreenScene& scene,
     const Progress& progress,
-    const CancelFlag* cancel) {
+    const CancelFlag* cancel,
+    const ExpectPieces& expect) {
     std::vector<std::uint8_t> is_changed(scene.triangles.size());
     for (const std::uint32_t triangle : change.triangles)
         is_changed[triangle] = 1;
@@ -348,9 +464,15 @@ VisiblePieces cell_raster_after(
     }
     std::vector<VisiblePieces> parts;
     {
-        const CellRaster raster = raster_of(scene, &change, cancel);
+        const CellRaster raster = raster_of(scene, &change, progress, cancel);
         CellCounts uncounted;
-        parts = follow_edges(raster, before, progress, cancel, uncounted);
+        parts = follow_edges(
+            raster,
+            before,
+            expect,
+            progress_between(progress, part_of_preparation, 1),
+            cancel,
+            uncounted);
     }
     VisiblePieces result = joined(std::move(parts));
     for (const auto& [a, b] : before.penetrating)

@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -36,15 +37,20 @@ struct VisiblePieces {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> penetrating;
 };
 
+/// Told about how many pieces there will be before they are found; throws where they are too many.
+using ExpectPieces = std::function<void(double pieces)>;
+
 /// By Franklin's cells: an edge is compared with what lies in the cells along it alone, all in
 /// exact arithmetic (A linear time exact hidden surface algorithm, 1980). The time grows in
 /// proportion to the triangles where what is hidden lies behind triangles larger than cells. The
 /// same pieces in the same order for any number of threads. Where counts are asked for they are
-/// filled in.
+/// filled in. Throws Cancelled, and std::runtime_error where the memory that is available would not
+/// suffice: it first follows a few edges.
 VisiblePieces cell_raster(
     const ScreenScene& scene,
     const Progress& progress = {},
     const CancelFlag* cancel = nullptr,
+    const ExpectPieces& expect = {},
     CellCounts* counts = nullptr);
 
 /// What became different in a scene, whose other triangles and whose vertices kept their numbers.
@@ -60,6 +66,7 @@ VisiblePieces cell_raster_after(
     VisiblePieces before,
     const ScreenScene& scene,
     const Progress& progress = {},
-    const CancelFlag* cancel = nullptr);
+    const CancelFlag* cancel = nullptr,
+    const ExpectPieces& expect = {});
 
 } // namespace vera

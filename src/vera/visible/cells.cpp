@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/cells.h"
 
+#include "vera/base/long_loop.h"
+
 #include <array>
 #include <cmath>
 #include <limits>
@@ -119,8 +121,7 @@ void CellLists::for_each_row(
         const std::int32_t first = static_cast<std::int32_t>(number) * height;
         const std::int32_t last = first + height - 1;
         for (std::size_t in = 0; in < reaches_.size(); ++in) {
-            if (cancel_ != nullptr)
-                cancel_->throw_if_raised();
+            stop_if_raised(cancel_);
             if (cells.cell_of(reaches_[in].most) < first
                 || cells.cell_of(reaches_[in].least) > last)
                 continue;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/covered_areas.h"
 
+#include "vera/base/long_loop.h"
+#include "vera/base/progress_part.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
@@ -23,8 +26,12 @@ bool comes_before(const Side& a, const Side& b) {
 
 /// Calls visit(source, one of its vertices, the next, what is seen across).
 template <typename Visit>
-void for_each_side(const VisibleMap& map, const Visit& visit) {
-    for (const VisibleMap::Ring& ring : map.rings) {
+void for_each_side(
+    const VisibleMap& map, const Progress& progress, const CancelFlag* cancel, const Visit& visit) {
+    const LongLoop loop(map.rings.size(), progress, cancel);
+    for (std::size_t number = 0; number < map.rings.size(); ++number) {
+        loop.turn(number);
+        const VisibleMap::Ring& ring = map.rings[number];
         const auto vertices = map.vertices_of(ring);
         for (std::size_t i = 0; i < vertices.size(); ++i)
             visit(
@@ -77,14 +84,19 @@ std::vector<std::uint32_t> way_from(std::vector<Side>& sides, Side& first) {
 
 } // namespace
 
-CoveredAreas covered_areas(const VisibleMap& map) {
+CoveredAreas
+covered_areas(const VisibleMap& map, const Progress& progress, const CancelFlag* cancel) {
+    StageProgress stages(progress, 3);
     CoveredAreas areas;
     if (map.rings.empty())
         return areas;
     const std::size_t source_count = std::size_t{map.rings.back().source} + 1;
     JoinedSources joined(source_count);
     for_each_side(
-        map, [&](std::uint32_t source, std::uint32_t, std::uint32_t, std::uint32_t across) {
+        map,
+        stages.next(1),
+        cancel,
+        [&](std::uint32_t source, std::uint32_t, std::uint32_t, std::uint32_t across) {
             if (across != no_source)
                 joined.join(source, across);
         });
@@ -102,14 +114,20 @@ CoveredAreas covered_areas(const VisibleMap& map) {
 
     std::vector<Side> sides;
     for_each_side(
-        map, [&](std::uint32_t source, std::uint32_t from, std::uint32_t to, std::uint32_t across) {
+        map,
+        stages.next(1),
+        cancel,
+        [&](std::uint32_t source, std::uint32_t from, std::uint32_t to, std::uint32_t across) {
             if (across == no_source)
                 sides.push_back({areas.of_source[source], from, to});
         });
     std::stable_sort(sides.begin(), sides.end(), comes_before);
-    for (Side& side : sides)
-        if (!side.used)
-            areas.outlines[side.area].push_back(way_from(sides, side));
+    const LongLoop loop(sides.size(), stages.next(1), cancel);
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+        loop.turn(i);
+        if (!sides[i].used)
+            areas.outlines[sides[i].area].push_back(way_from(sides, sides[i]));
+    }
     return areas;
 }
 

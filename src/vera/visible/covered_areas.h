@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "vera/base/parallel.h"
 #include "vera/visible/visible_map.h"
 
 #include <cstdint>
@@ -18,6 +19,8 @@ struct CoveredAreas {
     std::vector<std::uint32_t> of_source; ///< the area of each source that is seen
 };
 
-CoveredAreas covered_areas(const VisibleMap& map);
+/// Throws Cancelled.
+CoveredAreas covered_areas(
+    const VisibleMap& map, const Progress& progress = {}, const CancelFlag* cancel = nullptr);
 
 } // namespace vera

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/curve_parts.h"
 
+#include "vera/base/long_loop.h"
 #include "vera/drawing/elliptic_arc.h"
 
 #include <algorithm>
@@ -167,6 +168,7 @@ private:
 void unite_on_curves(
     const OutlineCurves& curves,
     double tolerance,
+    const CancelFlag* cancel,
     std::vector<LinePart>& parts,
     std::vector<DrawingPoint>& places) {
     std::vector<OnCurve> all;
@@ -179,6 +181,7 @@ void unite_on_curves(
     PartMaker maker(curves, parts, places);
     std::vector<Interval> covered;
     for (std::size_t first = 0, last = 0; first < all.size(); first = last) {
+        stop_if_raised(cancel);
         const auto [curve, line_class, none] = all[first];
         std::vector<Interval> intervals;
         for (; last < all.size() && all[last].curve == curve && all[last].line_class == line_class;

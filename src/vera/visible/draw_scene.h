@@ -6,40 +6,24 @@
 #include "vera/scene/camera.h"
 #include "vera/scene/picture_settings.h"
 #include "vera/scene/scene.h"
+#include "vera/visible/drawing_style.h"
 #include "vera/visible/map_check.h"
 #include "vera/visible/shadows.h"
 #include "vera/visible/visibility_engine.h"
 
 #include <cstddef>
-#include <cstdint>
 #include <functional>
 
 namespace vera {
-
-enum class DrawingStyle : std::uint8_t {
-    flat,         ///< each face, and what is in shadow of it, in the light of its middle
-    shaded,       ///< the same in gradients, as the light shades it
-    ids,          ///< each primitive in the colour of its number, from 1 on; 0 is the background
-    lines,        ///< what is seen of silhouettes, creases and intersections, alone
-    hidden_lines, ///< and what is not seen of silhouettes and creases
-    toon,         ///< flat in three tones of each colour, with the lines on top
-};
-
-constexpr bool has_fills(DrawingStyle style) {
-    return style != DrawingStyle::lines && style != DrawingStyle::hidden_lines;
-}
-
-constexpr bool has_lines(DrawingStyle style) {
-    return !has_fills(style) || style == DrawingStyle::toon;
-}
 
 struct DrawSettings {
     DrawingStyle style = DrawingStyle::flat;
     bool shadow_lines = false; ///< whether the borders of shadows are among the lines
     double deviation =
         0.1; ///< how far the plane facets of what is curved may lie off it, in pixels
-    /// Called, where there is one, with the map before anything is painted; may throw.
-    std::function<void(const PrimitiveMap& map)> check;
+    /// Called, where there is one, with the map before anything is painted; may throw, and tells
+    /// its own progress.
+    std::function<void(const PrimitiveMap& map, const Progress& progress)> check;
     VisibilityEngine engine = VisibilityEngine::cells; ///< the drawing is the same
     double color_tolerance =
         1.0 / 255; ///< how far the gradients of style shaded may be off the light, 1 for 255
@@ -59,8 +43,8 @@ struct DrawnScene {
 
 /// A drawing of what the camera sees, every face an outline, and every shadow where the settings
 /// ask for them: as exact as a grid of 2^22 steps across the picture. Throws InputError where style
-/// ids has more than 2^24 - 1 primitives to tell apart, and
-/// std::runtime_error where memory would not suffice for the engine.
+/// ids has more than 2^24 - 1 primitives to tell apart, std::runtime_error where memory would not
+/// suffice for the engine, and Cancelled soon after the flag is raised.
 DrawnScene draw_scene(
     const Scene& scene,
     const Camera& camera,

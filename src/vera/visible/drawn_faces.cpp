@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/drawn_faces.h"
 
+#include "vera/base/long_loop.h"
 #include "vera/scene/surface.h"
 #include "vera/visible/convex_piece.h"
 
@@ -57,14 +58,20 @@ bool shows_outside(const Facets& facets, const Facets::Triangle& facet, const Ca
 
 } // namespace
 
-DrawnFaces
-drawn_faces(const Scene& scene, const Facets& facets, FaceUnit unit, const Camera& camera) {
+DrawnFaces drawn_faces(
+    const Scene& scene,
+    const Facets& facets,
+    FaceUnit unit,
+    const Camera& camera,
+    const CancelFlag* cancel) {
     constexpr std::uint32_t none = 0xffffffff;
     DrawnFaces faces;
     faces.of_facet.reserve(facets.triangles.size());
     Parts parts = Parts::one;
     std::array<std::uint32_t, 2> open = {none, none}; // that further facets of the piece belong to
+    const LongLoop loop(facets.triangles.size(), {}, cancel);
     for (std::size_t i = 0; i < facets.triangles.size(); ++i) {
+        loop.turn(i);
         const Facets::Triangle& facet = facets.triangles[i];
         const bool next_primitive = i == 0 || facet.primitive != facets.triangles[i - 1].primitive;
         const bool next_piece = next_primitive || facet.piece != facets.triangles[i - 1].piece;

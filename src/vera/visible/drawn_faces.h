@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "vera/base/parallel.h"
 #include "vera/scene/camera.h"
 #include "vera/scene/facets.h"
 #include "vera/scene/scene.h"
@@ -24,8 +25,13 @@ struct DrawnFaces {
     std::vector<std::uint32_t> first_facet; ///< of each face
 };
 
-/// The camera tells the outside of a facet from its inside; only smooth ones ask for that.
-DrawnFaces
-drawn_faces(const Scene& scene, const Facets& facets, FaceUnit unit, const Camera& camera = {});
+/// The camera tells the outside of a facet from its inside; only smooth ones ask for that. Throws
+/// Cancelled.
+DrawnFaces drawn_faces(
+    const Scene& scene,
+    const Facets& facets,
+    FaceUnit unit,
+    const Camera& camera = {},
+    const CancelFlag* cancel = nullptr);
 
 } // namespace vera

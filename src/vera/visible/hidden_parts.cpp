@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/hidden_parts.h"
 
+#include "vera/base/long_loop.h"
+#include "vera/base/progress_part.h"
+
 #include <algorithm>
 #include <compare>
 #include <cstddef>
@@ -61,25 +64,46 @@ Span span_of(const ScreenScene& scene, const VisiblePieces& pieces, const Visibl
     return span;
 }
 
+/// Exact orders take long: the flag is looked at while they are asked for.
+void sort_spans(std::vector<Span>& spans, const CancelFlag* cancel) {
+    std::size_t asked = 0;
+    std::sort(spans.begin(), spans.end(), [&](const Span& a, const Span& b) {
+        if (++asked % 4096 == 0)
+            stop_if_raised(cancel);
+        return is_before(a, b);
+    });
+}
+
 std::vector<Span> spans_of_edges(
-    const ScreenScene& scene, const ScreenEdges& edges, std::span<const std::uint32_t> drawn) {
+    const ScreenScene& scene,
+    const ScreenEdges& edges,
+    std::span<const std::uint32_t> drawn,
+    const CancelFlag* cancel) {
     std::vector<Span> spans;
     spans.reserve(drawn.size());
-    for (const std::uint32_t number : drawn) {
+    const LongLoop loop(drawn.size(), {}, cancel);
+    for (std::size_t i = 0; i < drawn.size(); ++i) {
+        loop.turn(i);
+        const std::uint32_t number = drawn[i];
         const ScreenEdges::Edge& edge = edges.edges[number];
         if (scene.vertices[edge.begin].point != scene.vertices[edge.end].point)
             spans.push_back(span_of(scene, edge, number));
     }
-    std::sort(spans.begin(), spans.end(), is_before);
+    sort_spans(spans, cancel);
     return spans;
 }
 
 /// The pieces on the lines of the edges.
-std::vector<Span>
-spans_of_pieces(const ScreenScene& scene, const VisiblePieces& pieces, std::span<const Span> of) {
+std::vector<Span> spans_of_pieces(
+    const ScreenScene& scene,
+    const VisiblePieces& pieces,
+    std::span<const Span> of,
+    const CancelFlag* cancel) {
     std::vector<Span> spans;
-    for (const VisiblePiece& piece : pieces.pieces) {
-        const Span span = span_of(scene, pieces, piece);
+    const LongLoop loop(pieces.pieces.size(), {}, cancel);
+    for (std::size_t i = 0; i < pieces.pieces.size(); ++i) {
+        loop.turn(i);
+        const Span span = span_of(scene, pieces, pieces.pieces[i]);
         const auto found = std::lower_bound(
             of.begin(), of.end(), span.line, [](const Span& a, const PictureLine& line) {
                 return a.line < line;
@@ -87,7 +111,7 @@ spans_of_pieces(const ScreenScene& scene, const VisiblePieces& pieces, std::span
         if (found != of.end() && found->line == span.line)
             spans.push_back(span);
     }
-    std::sort(spans.begin(), spans.end(), is_before);
+    sort_spans(spans, cancel);
     return spans;
 }
 
@@ -97,9 +121,14 @@ std::vector<HiddenPart> hidden_parts(
     const ScreenScene& scene,
     const ScreenEdges& edges,
     std::span<const std::uint32_t> drawn,
-    const VisiblePieces& pieces) {
-    const std::vector<Span> spans = spans_of_edges(scene, edges, drawn);
-    const std::vector<Span> seen = spans_of_pieces(scene, pieces, spans);
+    const VisiblePieces& pieces,
+    const Progress& progress,
+    const CancelFlag* cancel) {
+    StageProgress stages(progress, 3);
+    stages.next(1);
+    const std::vector<Span> spans = spans_of_edges(scene, edges, drawn, cancel);
+    stages.next(1);
+    const std::vector<Span> seen = spans_of_pieces(scene, pieces, spans, cancel);
     std::vector<HiddenPart> parts;
     const auto add = [&](const RationalPoint& from, const RationalPoint& to, std::uint32_t edge) {
         if (order(from, to) < 0)
@@ -108,7 +137,10 @@ std::vector<HiddenPart> hidden_parts(
     std::size_t next = 0; // of what is seen, the first that may lie beyond what is done
     const PictureLine* line = nullptr;
     RationalPoint done; // up to here on the line everything is told
-    for (const Span& span : spans) {
+    const LongLoop loop(spans.size(), stages.next(1), cancel);
+    for (std::size_t i = 0; i < spans.size(); ++i) {
+        loop.turn(i);
+        const Span& span = spans[i];
         if (line == nullptr || *line != span.line)
             done = span.from;
         line = &span.line;

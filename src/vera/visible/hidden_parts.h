@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "vera/base/parallel.h"
 #include "vera/visible/cell_raster.h"
 #include "vera/visible/edges.h"
 #include "vera/visible/screen_scene.h"
@@ -20,10 +21,13 @@ struct HiddenPart {
 
 /// What of the edges no piece lies upon, exactly: hidden is what is not seen. Where several edges
 /// lie upon each other they are one. In the order of the lines through them, and along these.
+/// Throws Cancelled.
 std::vector<HiddenPart> hidden_parts(
     const ScreenScene& scene,
     const ScreenEdges& edges,
     std::span<const std::uint32_t> drawn,
-    const VisiblePieces& pieces);
+    const VisiblePieces& pieces,
+    const Progress& progress = {},
+    const CancelFlag* cancel = nullptr);
 
 } // namespace vera

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/light_views.h"
 
+#include "vera/base/long_loop.h"
 #include "vera/base/progress_part.h"
 #include "vera/math/box3.h"
 #include "vera/shade/lighting.h"
@@ -74,6 +75,7 @@ LitFacets::LitFacets(const Scene& scene, const Facets& facets)
 
 void LitFacets::add(const ScreenScene& view, const Progress& progress, const CancelFlag* cancel) {
     const VisiblePieces pieces = cell_raster(view, progress, cancel);
+    stop_if_raised(cancel);
     const ScreenEdges edges = screen_edges(view);
     const std::vector<EdgeNeighbours> neighbours = edge_neighbours(view, edges);
     // A surface that is seen beside an edge and goes on behind what is seen on the other side.
@@ -94,10 +96,14 @@ void LitFacets::add(const ScreenScene& view, const Progress& progress, const Can
         const int state = here[facet] | seen | (is_partly_hidden ? hidden : 0);
         here[facet] = static_cast<std::uint8_t>(state);
     };
-    for (const VisiblePiece& piece : pieces.pieces)
+    const LongLoop loop(pieces.pieces.size(), {}, cancel);
+    for (std::size_t i = 0; i < pieces.pieces.size(); ++i) {
+        loop.turn(i);
+        const VisiblePiece& piece = pieces.pieces[i];
         for (const std::uint32_t triangle : {piece.left, piece.right})
             if (triangle != no_triangle)
                 add_state(view.triangles[triangle].source, goes_on(triangle, piece));
+    }
     for (const auto& [a, b] : pieces.penetrating)
         for (const std::uint32_t triangle : {a, b})
             add_state(view.triangles[triangle].source, true);
@@ -136,7 +142,7 @@ LightViews light_views(
         result.step = std::max(
             result.step,
             farthest * length(cameras[i].lower_right - cameras[i].lower_left) / screen_size);
-        view.screen = screen_scene(moved, map, numbers, 1.001 * farthest);
+        view.screen = screen_scene(moved, map, numbers, 1.001 * farthest, cancel);
         if (view.screen.triangles.empty())
             continue;
         result.cut_nearness = std::max(result.cut_nearness, view.screen.cut_nearness);
@@ -150,7 +156,7 @@ LightViews light_views(
         triangles.erase(transparent, triangles.end());
         if (view.transparent.triangles.empty())
             view.transparent.vertices = {};
-        sort_by_place(view.screen);
+        sort_by_place(view.screen, cancel);
         result.lit.add(view.screen, progress_part(progress, i, cameras.size()), cancel);
         view.cells = cells_of(view.screen, cancel);
         result.views.push_back(std::move(view));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/line_rules.h"
 
-#include "vera/base/parallel.h"
+#include "vera/base/long_loop.h"
 #include "vera/math/vec3.h"
 #include "vera/scene/surface.h"
 
@@ -186,9 +186,10 @@ bool LineRules::is_drawn(std::uint32_t edge) const {
     });
 }
 
-std::vector<std::uint32_t> LineRules::drawn_edges() const {
+std::vector<std::uint32_t> LineRules::drawn_edges(const CancelFlag* cancel) const {
     std::vector<std::uint8_t> drawn(edges_.edges.size());
     parallel_ranges(drawn.size(), 4096, [&](std::size_t first, std::size_t last) {
+        stop_if_raised(cancel);
         for (std::size_t i = first; i < last; ++i)
             drawn[i] = is_drawn(static_cast<std::uint32_t>(i)) ? 1 : 0;
     });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "vera/base/parallel.h"
 #include "vera/drawing/line_class.h"
 #include "vera/scene/camera.h"
 #include "vera/scene/facets.h"
@@ -37,8 +38,8 @@ public:
     bool is_between_neighbours(const VisiblePiece& piece) const;
 
     /// The edges at which a surface ends in the picture or makes a crease, seen or not, in
-    /// ascending order: those of which hidden parts are drawn.
-    std::vector<std::uint32_t> drawn_edges() const;
+    /// ascending order: those of which hidden parts are drawn. Throws Cancelled.
+    std::vector<std::uint32_t> drawn_edges(const CancelFlag* cancel = nullptr) const;
 
     const ScreenEdges& edges() const { return edges_; }
 

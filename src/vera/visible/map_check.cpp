@@ -2,6 +2,7 @@
 #include "vera/visible/map_check.h"
 
 #include "vera/accel/primitive_hit.h"
+#include "vera/base/long_loop.h"
 #include "vera/base/random.h"
 #include "vera/scene/surface.h"
 #include "vera/visible/map_locator.h"
@@ -11,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <mutex>
 
 namespace vera {
 
@@ -126,20 +128,32 @@ MapCheck check_map(
     const Camera& camera,
     const RayIndex& index,
     const MapCheckSettings& settings,
+    const Progress& progress,
     const CancelFlag* cancel) {
     constexpr std::size_t part = 256; // points
     const Comparison all = {
-        drawn, scene, CameraMap(camera), ViewRays(camera), index, settings, MapLocator(drawn.map)};
+        drawn,
+        scene,
+        CameraMap(camera),
+        ViewRays(camera),
+        index,
+        settings,
+        MapLocator(drawn.map, cancel)};
+    std::mutex mutex;
+    std::size_t done = 0;
     std::vector<MapCheck> parts((settings.points + part - 1) / part);
     parallel_ranges(parts.size(), 1, [&](std::size_t first, std::size_t last) {
         QueryCounts counts;
         for (std::size_t i = first; i < last; ++i) {
-            if (cancel != nullptr)
-                cancel->throw_if_raised();
+            stop_if_raised(cancel);
             const std::size_t end = std::min(settings.points, (i + 1) * part);
             for (std::size_t point = i * part; point < end; ++point)
                 compare(all, point, counts, parts[i]);
         }
+        const std::lock_guard lock(mutex);
+        done += last - first;
+        if (progress)
+            progress(static_cast<double>(done) / static_cast<double>(parts.size()));
     });
     MapCheck result;
     for (const MapCheck& of_part : parts) {

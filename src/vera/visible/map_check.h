@@ -49,13 +49,14 @@ struct MapCheck {
 /// through them meet first. A difference is explained where a side of the map is no farther than
 /// 1/64 pixel from the point, or two surfaces that differ are no farther than that from each other
 /// there; where one of them is curved, the deviation comes on top. The same points, and the same
-/// result, for any number of threads.
+/// result, for any number of threads. Throws Cancelled.
 MapCheck check_map(
     const PrimitiveMap& drawn,
     const Scene& scene,
     const Camera& camera,
     const RayIndex& index,
     const MapCheckSettings& settings,
+    const Progress& progress = {},
     const CancelFlag* cancel = nullptr);
 
 } // namespace vera

@@ -30,8 +30,8 @@ double distance_squared(double x, double y, double to_x, double to_y) {
 
 } // namespace
 
-MapLocator::MapLocator(const VisibleMap& map)
-    : strips_(map, strip_height(map)) {}
+MapLocator::MapLocator(const VisibleMap& map, const CancelFlag* cancel)
+    : strips_(map, strip_height(map), cancel) {}
 
 MapPlace MapLocator::at(double x, double y) const {
     MapPlace place;

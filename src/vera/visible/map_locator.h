@@ -21,7 +21,8 @@ struct MapPlace {
 /// square roots of the number of sides. May be asked from many threads.
 class MapLocator {
 public:
-    explicit MapLocator(const VisibleMap& map);
+    /// Throws Cancelled.
+    explicit MapLocator(const VisibleMap& map, const CancelFlag* cancel = nullptr);
 
     /// The point is in steps of the grid. On a side, either of what lies beside it.
     MapPlace at(double x, double y) const;

@@ -219,10 +219,13 @@ struct Passed {
 
 } // namespace
 
-MapRaster::MapRaster(const VisibleMap& map, std::size_t width, std::size_t height)
+MapRaster::MapRaster(
+    const VisibleMap& map, std::size_t width, std::size_t height, const CancelFlag* cancel)
     : bands_{width, height}
     , strips_(
-          map, static_cast<double>(PixelBands::rows) * screen_size / static_cast<double>(height)) {}
+          map,
+          static_cast<double>(PixelBands::rows) * screen_size / static_cast<double>(height),
+          cancel) {}
 
 void MapRaster::add_centers(std::size_t band, std::vector<PixelPart>& parts) const {
     const double per_pixel = screen_size / static_cast<double>(bands_.width);

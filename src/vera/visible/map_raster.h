@@ -14,7 +14,12 @@ namespace vera {
 /// in double precision, from the map's corners as these are. May be asked from many threads.
 class MapRaster {
 public:
-    MapRaster(const VisibleMap& map, std::size_t width, std::size_t height);
+    /// Throws Cancelled.
+    MapRaster(
+        const VisibleMap& map,
+        std::size_t width,
+        std::size_t height,
+        const CancelFlag* cancel = nullptr);
 
     /// Adds what the middle of each pixel shows, as one part of area 1.
     void add_centers(std::size_t band, std::vector<PixelPart>& parts) const;

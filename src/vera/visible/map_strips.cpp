@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/map_strips.h"
 
+#include "vera/base/long_loop.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -23,10 +25,13 @@ MapSide side_between(const RationalPoint& from, const RationalPoint& to, std::ui
 
 } // namespace
 
-MapStrips::MapStrips(const VisibleMap& map, double strip_height)
+MapStrips::MapStrips(const VisibleMap& map, double strip_height, const CancelFlag* cancel)
     : strip_height_(strip_height) {
     sides_.reserve(map.ring_vertices.size());
-    for (const VisibleMap::Ring& ring : map.rings) {
+    const LongLoop rings(map.rings.size(), {}, cancel);
+    for (std::size_t number = 0; number < map.rings.size(); ++number) {
+        rings.turn(number);
+        const VisibleMap::Ring& ring = map.rings[number];
         const auto vertices = map.vertices_of(ring);
         for (std::size_t i = 0; i < vertices.size(); ++i)
             sides_.push_back(side_between(
@@ -41,13 +46,18 @@ MapStrips::MapStrips(const VisibleMap& map, double strip_height)
         for (std::size_t strip = strip_of(side.y); strip <= last; ++strip)
             visit(strip);
     };
-    for (const MapSide& side : sides_)
-        for_each_strip(side, [&](std::size_t strip) { ++starts_[strip + 1]; });
+    const LongLoop loop(sides_.size(), {}, cancel);
+    for (std::size_t i = 0; i < sides_.size(); ++i) {
+        loop.turn(i);
+        for_each_strip(sides_[i], [&](std::size_t strip) { ++starts_[strip + 1]; });
+    }
     std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
     listed_.resize(starts_.back());
     std::vector<std::size_t> next(starts_.begin(), starts_.end() - 1);
-    for (std::uint32_t i = 0; i < sides_.size(); ++i)
+    for (std::uint32_t i = 0; i < sides_.size(); ++i) {
+        loop.turn(i);
         for_each_strip(sides_[i], [&](std::size_t strip) { listed_[next[strip]++] = i; });
+    }
 }
 
 std::size_t MapStrips::strip_of(double y) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "vera/base/parallel.h"
 #include "vera/visible/visible_map.h"
 
 #include <cstddef>
@@ -31,7 +32,8 @@ struct MapSide {
 /// The sides of all rings, sorted into equal strips across the picture.
 class MapStrips {
 public:
-    MapStrips(const VisibleMap& map, double strip_height);
+    /// Throws Cancelled.
+    MapStrips(const VisibleMap& map, double strip_height, const CancelFlag* cancel = nullptr);
 
     std::size_t count() const { return starts_.size() - 1; }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/outline_strokes.h"
 
+#include "vera/base/long_loop.h"
 #include "vera/base/parallel.h"
+#include "vera/base/progress_part.h"
 #include "vera/drawing/elliptic_arc.h"
 #include "vera/visible/curve_parts.h"
 #include "vera/visible/hidden_parts.h"
@@ -30,10 +32,12 @@ struct LineParts {
     std::vector<RationalPoint> points;
 };
 
-std::vector<LinePart> visible_parts(const StrokeSources& sources, const LineRules& rules) {
+std::vector<LinePart>
+visible_parts(const StrokeSources& sources, const LineRules& rules, const CancelFlag* cancel) {
     const std::vector<VisiblePiece>& pieces = sources.pieces.pieces;
     std::vector<std::optional<LineClass>> classes(pieces.size());
     parallel_ranges(pieces.size(), 1024, [&](std::size_t first, std::size_t last) {
+        stop_if_raised(cancel);
         for (std::size_t i = first; i < last; ++i)
             classes[i] = rules.class_of(pieces[i]);
     });
@@ -41,7 +45,9 @@ std::vector<LinePart> visible_parts(const StrokeSources& sources, const LineRule
         return triangle == no_triangle ? no_source : sources.screen.triangles[triangle].source;
     };
     std::vector<LinePart> parts;
+    const LongLoop loop(pieces.size(), {}, cancel);
     for (std::size_t i = 0; i < pieces.size(); ++i) {
+        loop.turn(i);
         if (!classes[i])
             continue;
         LinePart& part = parts.emplace_back();
@@ -56,12 +62,20 @@ std::vector<LinePart> visible_parts(const StrokeSources& sources, const LineRule
     return parts;
 }
 
-void add_hidden_parts(const StrokeSources& sources, const LineRules& rules, LineParts& lines) {
+void add_hidden_parts(
+    const StrokeSources& sources,
+    const LineRules& rules,
+    const Progress& progress,
+    const CancelFlag* cancel,
+    LineParts& lines) {
     const ScreenEdges& edges = rules.edges();
-    const std::vector<HiddenPart> hidden =
-        hidden_parts(sources.screen, edges, rules.drawn_edges(), sources.pieces);
+    const std::vector<HiddenPart> hidden = hidden_parts(
+        sources.screen, edges, rules.drawn_edges(cancel), sources.pieces, progress, cancel);
     PointNumbers numbers(lines.points, lines.points.size() + 2 * hidden.size());
-    for (const HiddenPart& part : hidden) {
+    const LongLoop loop(hidden.size(), {}, cancel);
+    for (std::size_t i = 0; i < hidden.size(); ++i) {
+        loop.turn(i);
+        const HiddenPart& part = hidden[i];
         const auto& [begin, end] = edges.edges[part.edge];
         const auto triangles = rules.edge_triangles().of(part.edge);
         LinePart& line = lines.parts.emplace_back();
@@ -105,8 +119,10 @@ void find_curves(
     const StrokeSources& sources,
     const OutlineCurves& curves,
     const std::vector<DrawingPoint>& places,
+    const CancelFlag* cancel,
     std::vector<LinePart>& parts) {
     parallel_ranges(parts.size(), 1024, [&](std::size_t first, std::size_t last) {
+        stop_if_raised(cancel);
         for (std::size_t i = first; i < last; ++i)
             for (const std::uint32_t face : parts[i].faces)
                 if (face != no_source && parts[i].curve == no_curve)
@@ -155,6 +171,7 @@ void move_to_curves(
     const StrokeSources& sources,
     const OutlineCurves& curves,
     const LineParts& lines,
+    const CancelFlag* cancel,
     std::vector<DrawingPoint>& places) {
     const std::vector<Constraint> constraints = constraints_of(lines);
     const auto moved = [&](const Constraint& to, DrawingPoint from, DrawingPoint point) {
@@ -166,6 +183,7 @@ void move_to_curves(
         return DrawingPoint{from.x + part * x, from.y + part * y};
     };
     for (std::size_t first = 0, last = 0; first < constraints.size(); first = last) {
+        stop_if_raised(cancel);
         const Constraint& one = constraints[first];
         const Constraint* other = nullptr;
         for (; last < constraints.size() && constraints[last].vertex == one.vertex; ++last)
@@ -261,7 +279,18 @@ private:
 
 } // namespace
 
-void add_strokes(const StrokeSources& sources, const ExtraLines& extra, Drawing& drawing) {
+void add_strokes(
+    const StrokeSources& sources,
+    const ExtraLines& extra,
+    const Progress& progress,
+    const CancelFlag* cancel,
+    Drawing& drawing) {
+    StageProgress stages(progress, 10);
+    const auto next_stage = [&](double weight) {
+        stop_if_raised(cancel);
+        return stages.next(weight);
+    };
+    next_stage(2);
     const LineRules rules(
         sources.scene,
         sources.camera,
@@ -269,13 +298,14 @@ void add_strokes(const StrokeSources& sources, const ExtraLines& extra, Drawing&
         sources.faces,
         sources.screen,
         sources.pieces.points);
-    LineParts lines = {visible_parts(sources, rules), sources.pieces.points};
+    LineParts lines = {visible_parts(sources, rules, cancel), sources.pieces.points};
     if (!extra.shadows)
         std::erase_if(
             lines.parts, [](const LinePart& part) { return part.line_class == LineClass::shadow; });
-    if (extra.hidden)
-        add_hidden_parts(sources, rules, lines);
+    if (const Progress of_hidden = next_stage(3); extra.hidden)
+        add_hidden_parts(sources, rules, of_hidden, cancel, lines);
 
+    next_stage(1);
     std::vector<DrawingPoint> places;
     places.reserve(lines.points.size());
     for (const RationalPoint& point : lines.points)
@@ -285,17 +315,26 @@ void add_strokes(const StrokeSources& sources, const ExtraLines& extra, Drawing&
         sources.faces,
         places,
         tolerance_of(sources, LineClass::hidden),
+        cancel,
         lines.parts);
+    next_stage(2);
     const OutlineCurves curves = curves_of(sources, lines.parts);
-    find_curves(sources, curves, places, lines.parts);
-    move_to_curves(sources, curves, lines, places);
-    unite_on_curves(curves, tolerance(sources), lines.parts, places);
+    find_curves(sources, curves, places, cancel, lines.parts);
+    move_to_curves(sources, curves, lines, cancel, places);
+    next_stage(1);
+    unite_on_curves(curves, tolerance(sources), cancel, lines.parts, places);
 
     const StrokeMaker maker(lines.parts, curves, places);
+    const Progress of_classes = next_stage(1);
     for (std::size_t i = 0; i < line_class_names.size(); ++i) {
         const auto line_class = static_cast<LineClass>(i);
-        for (LineChain& chain : line_chains(lines.parts, line_class, places.size()))
-            drawing.strokes.push_back(maker.stroke(line_class, std::move(chain)));
+        std::vector<LineChain> chains = line_chains(lines.parts, line_class, places.size());
+        const LongLoop loop(
+            chains.size(), progress_part(of_classes, i, line_class_names.size()), cancel);
+        for (std::size_t j = 0; j < chains.size(); ++j) {
+            loop.turn(j);
+            drawing.strokes.push_back(maker.stroke(line_class, std::move(chains[j])));
+        }
     }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "vera/base/parallel.h"
 #include "vera/drawing/drawing.h"
 #include "vera/scene/facets.h"
 #include "vera/scene/picture_settings.h"
@@ -36,7 +37,12 @@ struct ExtraLines {
 
 /// Adds the lines that part what is seen, by class, and the extra ones. The frame is no line. What
 /// goes on in each other becomes one stroke, and what lies on an ellipse of a curved primitive an
-/// arc of it.
-void add_strokes(const StrokeSources& sources, const ExtraLines& extra, Drawing& drawing);
+/// arc of it. Throws Cancelled.
+void add_strokes(
+    const StrokeSources& sources,
+    const ExtraLines& extra,
+    const Progress& progress,
+    const CancelFlag* cancel,
+    Drawing& drawing);
 
 } // namespace vera

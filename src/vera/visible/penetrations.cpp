@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/penetrations.h"
 
+#include "vera/base/long_loop.h"
+#include "vera/base/progress_part.h"
 #include "vera/exact/front_order.h"
 #include "vera/visible/edges.h"
 #include "vera/visible/plane_sweep.h"
@@ -141,20 +143,28 @@ void replace_by_parts(
 } // namespace
 
 SceneChange cut_penetrations(
-    ScreenScene& scene, std::span<const std::pair<std::uint32_t, std::uint32_t>> penetrating) {
+    ScreenScene& scene,
+    std::span<const std::pair<std::uint32_t, std::uint32_t>> penetrating,
+    const CancelFlag* cancel) {
     const ScreenEdges edges = screen_edges(scene);
     EdgeCuts cuts(scene, edges);
     const auto slope_of = [&](std::uint32_t triangle) {
         return nearness_slope(plane_of(scene, scene.triangles[triangle]));
     };
-    for (const auto& [a, b] : penetrating) {
+    const LongLoop pairs(penetrating.size(), {}, cancel);
+    for (std::size_t i = 0; i < penetrating.size(); ++i) {
+        pairs.turn(i);
+        const auto [a, b] = penetrating[i];
         cuts.cut(a, slope_of(a), slope_of(b));
         cuts.cut(b, slope_of(b), slope_of(a));
     }
     SceneChange change;
     const std::size_t count = scene.triangles.size();
-    for (std::uint32_t i = 0; i < count; ++i)
+    const LongLoop loop(count, {}, cancel);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        loop.turn(i);
         replace_by_parts(scene, i, cuts.of_triangle(i), change);
+    }
     return change;
 }
 
@@ -162,22 +172,35 @@ WholePieces whole_pieces(
     ScreenScene& scene,
     const Progress& progress,
     const CancelFlag* cancel,
-    VisibilityEngine engine) {
+    VisibilityEngine engine,
+    const ExpectPieces& expect) {
     constexpr int most_rounds = 24;
     // Where each passes through each, cutting all would take the square of their number.
     const std::size_t most_triangles = 16 * scene.triangles.size() + 100'000;
+    // Nobody knows how many rounds there will be: each takes a part of what is left of the
+    // progress.
+    double done = 0.75;
+    const auto next_round = [&] {
+        constexpr double part = 0.25;
+        const double begin = done;
+        done += part * (1 - done);
+        return progress_between(progress, begin, done);
+    };
     WholePieces result;
-    result.pieces = engine == VisibilityEngine::sweep ? plane_sweep(scene, {}, progress, cancel)
-                                                      : cell_raster(scene, progress, cancel);
+    const Progress first_round = progress_between(progress, 0, done);
+    result.pieces = engine == VisibilityEngine::sweep
+        ? plane_sweep(scene, {}, first_round, cancel)
+        : cell_raster(scene, first_round, cancel, expect);
     while (true) {
         result.left = result.pieces.penetrating.size();
         if (result.left == 0 || result.rounds == most_rounds
             || scene.triangles.size() > most_triangles)
             return result;
-        const SceneChange change = cut_penetrations(scene, result.pieces.penetrating);
+        const SceneChange change = cut_penetrations(scene, result.pieces.penetrating, cancel);
         result.pieces = engine == VisibilityEngine::sweep
-            ? plane_sweep(scene, {}, {}, cancel)
-            : cell_raster_after(change, std::move(result.pieces), scene, {}, cancel);
+            ? plane_sweep(scene, {}, next_round(), cancel)
+            : cell_raster_after(
+                change, std::move(result.pieces), scene, next_round(), cancel, expect);
         ++result.rounds;
     }
 }

@@ -14,9 +14,11 @@ namespace vera {
 
 /// Cuts triangles that pass through each other where they do, to within a step of the grid, and
 /// those beside them that share a side which was cut. Of a triangle with several partners only some
-/// cuts are made: ask again.
+/// cuts are made: ask again. Throws Cancelled.
 SceneChange cut_penetrations(
-    ScreenScene& scene, std::span<const std::pair<std::uint32_t, std::uint32_t>> penetrating);
+    ScreenScene& scene,
+    std::span<const std::pair<std::uint32_t, std::uint32_t>> penetrating,
+    const CancelFlag* cancel = nullptr);
 
 /// What is seen of the scene, and `left`, how many pairs still pass through each other: 0 but for
 /// scenes in which hundreds do at one place.
@@ -27,10 +29,12 @@ struct WholePieces {
 };
 
 /// What the engine finds in the scene after everything was cut in it that is seen to penetrate.
+/// Throws Cancelled, and std::runtime_error where memory would not suffice for the engine.
 WholePieces whole_pieces(
     ScreenScene& scene,
     const Progress& progress = {},
     const CancelFlag* cancel = nullptr,
-    VisibilityEngine engine = VisibilityEngine::cells);
+    VisibilityEngine engine = VisibilityEngine::cells,
+    const ExpectPieces& expect = {});
 
 } // namespace vera

@@ -2,6 +2,7 @@
 #include "vera/visible/plane_sweep.h"
 
 #include "vera/base/available_memory.h"
+#include "vera/base/long_loop.h"
 #include "vera/base/random.h"
 #include "vera/visible/connection_graph.h"
 #include "vera/visible/edges.h"
@@ -41,9 +42,12 @@ struct SweptScene {
     SweepSegments segments;
 };
 
-SweptScene swept_scene(const ScreenScene& scene) {
-    SweptScene swept = {scene, slopes_of(scene), screen_edges(scene), {}};
-    swept.segments = sweep_segments(scene, swept.edges);
+SweptScene swept_scene(const ScreenScene& scene, const CancelFlag* cancel) {
+    SweptScene swept = {scene, slopes_of(scene), {}, {}};
+    stop_if_raised(cancel);
+    swept.edges = screen_edges(scene);
+    stop_if_raised(cancel);
+    swept.segments = sweep_segments(scene, swept.edges, cancel);
     return swept;
 }
 
@@ -208,7 +212,8 @@ joined(const SweptScene& swept, const ConnectionGraph& graph, std::vector<Visibl
 }
 
 /// How many pairs of segments cross: all are asked, or as many as suffice, at random.
-double crossings_of(std::span<const SweepSegments::Segment> segments) {
+double
+crossings_of(std::span<const SweepSegments::Segment> segments, const CancelFlag* cancel = nullptr) {
     SweepCounts uncounted;
     const SweepPredicates predicates(segments, uncounted);
     const auto do_cross = [&](std::uint64_t i, std::uint64_t j) {
@@ -226,7 +231,9 @@ double crossings_of(std::span<const SweepSegments::Segment> segments) {
                 found += do_cross(i, j) ? 1 : 0;
         return static_cast<double>(found);
     }
+    const LongLoop loop(samples, {}, cancel);
     for (std::uint64_t i = 0; i < samples; ++i) {
+        loop.turn(i);
         const std::uint64_t a = random(1988, i, 0) % count;
         const std::uint64_t b = random(1988, i, 1) % count;
         found += a != b && do_cross(a, b) ? 1 : 0;
@@ -234,33 +241,32 @@ double crossings_of(std::span<const SweepSegments::Segment> segments) {
     return static_cast<double>(found) / samples * static_cast<double>(pairs);
 }
 
-SweepForecast forecast_of(const SweepSegments& segments) {
+SweepForecast forecast_of(const SweepSegments& segments, const CancelFlag* cancel = nullptr) {
     // A vertex of the graph with two edges and three gaps, and crossings that wait: 88. Where most
     // is seen, pieces take half as much again. A segment has its ends, its rung and what is
     // remembered of it.
     constexpr double per_crossing = 120;
     constexpr double per_segment = 350;
     SweepForecast forecast;
-    forecast.crossings = crossings_of(segments.segments);
+    forecast.crossings = crossings_of(segments.segments, cancel);
     forecast.bytes = per_crossing * forecast.crossings
         + per_segment * static_cast<double>(segments.segments.size())
         + sizeof(SweepSegments::Border) * static_cast<double>(segments.borders.size());
     return forecast;
 }
 
-SweepForecast checked_forecast(const SweepSegments& segments, std::optional<std::uint64_t> most) {
-    const SweepForecast forecast = forecast_of(segments);
-    const std::optional<std::uint64_t> limit = most ? most : available_memory();
-    if (!limit || forecast.bytes <= static_cast<double>(*limit))
-        return forecast;
-    const auto mebibytes = [](double bytes) {
-        return std::to_string(static_cast<std::uint64_t>(bytes / 0x1p20) + 1);
-    };
-    throw std::runtime_error(
-        "a sweep would meet about " + std::to_string(static_cast<std::uint64_t>(forecast.crossings))
-        + " crossings of edges, which takes about " + mebibytes(forecast.bytes)
-        + " MiB of memory, and " + mebibytes(static_cast<double>(*limit))
-        + " MiB are available: take --engine cells, which keeps no crossings");
+SweepForecast checked_forecast(
+    const SweepSegments& segments, std::optional<std::uint64_t> most, const CancelFlag* cancel) {
+    const SweepForecast forecast = forecast_of(segments, cancel);
+    const std::string what = "a sweep would meet about "
+        + std::to_string(static_cast<std::uint64_t>(forecast.crossings))
+        + " crossings of edges, which";
+    const std::string remedy = "take --engine cells, which keeps no crossings";
+    if (most)
+        require_memory(forecast.bytes, most, what, remedy);
+    else
+        require_memory(forecast.bytes, what, remedy);
+    return forecast;
 }
 
 } // namespace
@@ -274,8 +280,9 @@ VisiblePieces plane_sweep(
     const PlaneSweepSettings& settings,
     const Progress& progress,
     const CancelFlag* cancel) {
-    const SweptScene swept = swept_scene(scene);
-    const SweepForecast forecast = checked_forecast(swept.segments, settings.most_bytes);
+    const SweptScene swept = swept_scene(scene, cancel);
+    stop_if_raised(cancel);
+    const SweepForecast forecast = checked_forecast(swept.segments, settings.most_bytes, cancel);
     SweepCounts counts;
     constexpr double part_of_graph = 0.5; // of the time
     ConnectionGraph graph = connection_graph(
@@ -310,6 +317,7 @@ VisiblePieces plane_sweep(
         *settings.counts = counts;
 
     // Pieces need as much room as what is no longer asked for.
+    stop_if_raised(cancel);
     std::vector<ConnectionGraph::Edge>().swap(graph.edges);
     std::vector<std::uint32_t>().swap(graph.gaps);
     VisiblePieces result = joined(swept, graph, finder.parts);

@@ -2,6 +2,7 @@
 #include "vera/visible/projection.h"
 
 #include "vera/base/diagnostic.h"
+#include "vera/base/long_loop.h"
 #include "vera/visible/cut_polygon.h"
 #include "vera/visible/vertex_numbers.h"
 
@@ -159,9 +160,11 @@ ScreenScene screen_scene(
     const Facets& facets,
     const CameraMap& map,
     std::span<const std::uint32_t> sources,
-    double most_far) {
+    double most_far,
+    const CancelFlag* cancel) {
     std::vector<ImagePoint> points(facets.corners.size());
     parallel_ranges(points.size(), 4096, [&](std::size_t first, std::size_t last) {
+        stop_if_raised(cancel);
         for (std::size_t i = first; i < last; ++i)
             points[i] = map.image_point(facets.corners[i]);
     });
@@ -176,12 +179,18 @@ ScreenScene screen_scene(
             farthest = std::max(farthest, std::min(point.w, most_far));
     Snap snap = {map.is_parallel(), {}};
     const double tiny = farthest * 0x1p-40;
-    for (const Facets::Triangle& facet : facets.triangles)
+    const LongLoop loop(facets.triangles.size(), {}, cancel);
+    for (std::size_t i = 0; i < facets.triangles.size(); ++i) {
+        loop.turn(i);
         for_visible_part(
-            corners_of_facet(facet), tiny, most_far, [&](std::span<const ImagePoint> part) {
+            corners_of_facet(facets.triangles[i]),
+            tiny,
+            most_far,
+            [&](std::span<const ImagePoint> part) {
                 for (const ImagePoint& point : part)
                     snap.range.include(map.is_parallel() ? point.depth : point.w);
             });
+    }
     ScreenScene scene;
     if (!map.is_parallel() && snap.range.least < nearest_part * snap.range.most) {
         snap.range.least = nearest_part * snap.range.most;
@@ -190,7 +199,8 @@ ScreenScene screen_scene(
     const double nearest = map.is_parallel() ? 0 : snap.range.least;
 
     VertexNumbers numbers(scene.vertices);
-    for (std::size_t i = 0; i < facets.triangles.size(); ++i)
+    for (std::size_t i = 0; i < facets.triangles.size(); ++i) {
+        loop.turn(i);
         for_visible_part(
             corners_of_facet(facets.triangles[i]),
             nearest,
@@ -206,6 +216,7 @@ ScreenScene screen_scene(
                     last = next;
                 }
             });
+    }
     return scene;
 }
 

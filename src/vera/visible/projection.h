@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "vera/base/parallel.h"
 #include "vera/math/transform.h"
 #include "vera/scene/camera.h"
 #include "vera/scene/facets.h"
@@ -45,11 +46,12 @@ private:
 
 /// The facets as the camera sees them: cut at the frame and before the viewer, and moved to the
 /// grid, of which y grows downward. sources[i] is that of facet i. Points that coincide are one.
-/// What is farther than w = farthest is cut away.
+/// What is farther than w = farthest is cut away. Throws Cancelled.
 ScreenScene screen_scene(
     const Facets& facets,
     const CameraMap& map,
     std::span<const std::uint32_t> sources,
-    double farthest = std::numeric_limits<double>::infinity());
+    double farthest = std::numeric_limits<double>::infinity(),
+    const CancelFlag* cancel = nullptr);
 
 } // namespace vera

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/region_paint.h"
 
+#include "vera/base/long_loop.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -158,9 +160,11 @@ bool bends(const Gradient& gradient, double spacing) {
 
 class RegionPainter {
 public:
-    RegionPainter(const ColorField& field, const PaintTolerance& tolerance)
+    RegionPainter(
+        const ColorField& field, const PaintTolerance& tolerance, const CancelFlag* cancel)
         : field_(field)
-        , tolerance_(tolerance) {}
+        , tolerance_(tolerance)
+        , cancel_(cancel) {}
 
     void paint(PaintedRegion region, int cuts) {
         const double length = extent_of(region.outline.rings).length();
@@ -218,11 +222,13 @@ private:
     }
 
     std::vector<ColorSample> samples_of(const PaintedRegion& region, double spacing) const {
+        stop_if_raised(cancel_);
         return color_samples(
             sample_points(region.outline.rings, spacing), field_, tolerance_.within);
     }
 
     FittedPaint best_paint(std::span<const ColorSample> samples) const {
+        stop_if_raised(cancel_);
         FittedPaint best = flat_fit(samples);
         if (best.error <= tolerance_.color)
             return best;
@@ -289,6 +295,7 @@ private:
 
     const ColorField& field_;
     const PaintTolerance& tolerance_;
+    const CancelFlag* cancel_;
     std::vector<FilledOutline> painted_;
 };
 
@@ -307,9 +314,12 @@ std::vector<DrawingPoint> sample_points(const std::vector<PointChain>& rings, do
     return points;
 }
 
-std::vector<FilledOutline>
-painted(PaintedRegion region, const ColorField& field, const PaintTolerance& tolerance) {
-    RegionPainter painter(field, tolerance);
+std::vector<FilledOutline> painted(
+    PaintedRegion region,
+    const ColorField& field,
+    const PaintTolerance& tolerance,
+    const CancelFlag* cancel) {
+    RegionPainter painter(field, tolerance, cancel);
     painter.paint(std::move(region), 0);
     return painter.take();
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "vera/base/parallel.h"
 #include "vera/drawing/drawing.h"
 #include "vera/visible/gradient_fit.h"
 #include "vera/visible/half_plane.h"
@@ -34,8 +35,11 @@ std::vector<DrawingPoint> sample_points(const std::vector<PointChain>& rings, do
 /// The region with a colour or gradient, or cut by lines into parts that have one each, so that
 /// all agree with the field at samples of that spacing. What is less than a pixel long is not cut,
 /// and may agree less; regions that small have one colour. Parts are to be painted in their order:
-/// each goes on below the later ones by a pixel.
-std::vector<FilledOutline>
-painted(PaintedRegion region, const ColorField& field, const PaintTolerance& tolerance);
+/// each goes on below the later ones by a pixel. Throws Cancelled.
+std::vector<FilledOutline> painted(
+    PaintedRegion region,
+    const ColorField& field,
+    const PaintTolerance& tolerance,
+    const CancelFlag* cancel = nullptr);
 
 } // namespace vera

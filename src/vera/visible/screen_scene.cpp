@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/screen_scene.h"
 
+#include "vera/base/long_loop.h"
+
 #include <algorithm>
 #include <tuple>
 #include <utility>
@@ -62,7 +64,7 @@ void add_part(
         scene.triangles.push_back({vertices, of.source, light, of.plane});
 }
 
-void sort_by_place(ScreenScene& scene) {
+void sort_by_place(ScreenScene& scene, const CancelFlag* cancel) {
     struct Placed {
         std::uint64_t code;
         std::uint32_t triangle;
@@ -71,6 +73,7 @@ void sort_by_place(ScreenScene& scene) {
     std::vector<Placed> order(scene.triangles.size());
     for (std::uint32_t i = 0; i < order.size(); ++i)
         order[i] = {morton_code(corners_of(scene, scene.triangles[i])), i};
+    stop_if_raised(cancel);
     const auto key = [&](const Placed& placed) {
         const ScreenTriangle& triangle = scene.triangles[placed.triangle];
         return std::tuple(
@@ -84,6 +87,7 @@ void sort_by_place(ScreenScene& scene) {
     std::sort(order.begin(), order.end(), [&](const Placed& a, const Placed& b) {
         return a.code != b.code ? a.code < b.code : key(a) < key(b);
     });
+    stop_if_raised(cancel);
     // Of surfaces between the same vertices the first of the text alone is seen.
     const auto duplicates =
         std::unique(order.begin(), order.end(), [&](const Placed& a, const Placed& b) {
@@ -100,8 +104,10 @@ void sort_by_place(ScreenScene& scene) {
     std::vector<ScreenTriangle> triangles;
     vertices.reserve(scene.vertices.size());
     triangles.reserve(scene.triangles.size());
-    for (const auto& [code, i] : order) {
-        ScreenTriangle triangle = scene.triangles[i];
+    const LongLoop loop(order.size(), {}, cancel);
+    for (std::size_t place = 0; place < order.size(); ++place) {
+        loop.turn(place);
+        ScreenTriangle triangle = scene.triangles[order[place].triangle];
         for (std::array<std::uint32_t, 3>* corners : {&triangle.vertices, &triangle.plane})
             for (std::uint32_t& vertex : *corners) {
                 if (numbers[vertex] == unused) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "vera/base/parallel.h"
 #include "vera/exact/depth_plane.h"
 
 #include <array>
@@ -89,7 +90,7 @@ void add_part(
 
 /// Sorts the triangles along a curve that fills the picture (Morton 1966), and the vertices by who
 /// uses them first: neighbours then stand close together in memory. Of several surfaces between
-/// the same vertices one of the smallest source is left.
-void sort_by_place(ScreenScene& scene);
+/// the same vertices one of the smallest source is left. Throws Cancelled.
+void sort_by_place(ScreenScene& scene, const CancelFlag* cancel = nullptr);
 
 } // namespace vera

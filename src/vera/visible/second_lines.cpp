@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/second_lines.h"
 
+#include "vera/base/long_loop.h"
 #include "vera/drawing/elliptic_arc.h"
 #include "vera/visible/screen_scene.h"
 
@@ -113,12 +114,13 @@ void leave_out_second_lines(
     const DrawnFaces& faces,
     std::span<const DrawingPoint> places,
     double tolerance,
+    const CancelFlag* cancel,
     std::vector<LinePart>& parts) {
     const auto is_between_neighbours = [](const LinePart& part) {
         return part.is_between_neighbours;
     };
-    while (leave_out_loose_parts(places.size(), parts, is_between_neighbours)) {
-    }
+    while (leave_out_loose_parts(places.size(), parts, is_between_neighbours))
+        stop_if_raised(cancel);
     // Shorter than facets may be off the surface.
     leave_out_loose_parts(places.size(), parts, [&](const LinePart& part) {
         const auto [one, other] = part.faces;
@@ -128,7 +130,10 @@ void leave_out_second_lines(
             && distance(places[part.ends[0]], places[part.ends[1]]) <= tolerance;
     });
     const SeenSilhouettes seen(facets, faces, places, parts);
-    std::erase_if(parts, [&](const LinePart& part) { return seen.are_along(part, tolerance); });
+    std::erase_if(parts, [&](const LinePart& part) {
+        stop_if_raised(cancel);
+        return seen.are_along(part, tolerance);
+    });
 }
 
 } // namespace vera

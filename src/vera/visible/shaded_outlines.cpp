@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/shaded_outlines.h"
 
+#include "vera/base/long_loop.h"
 #include "vera/shade/firmament.h"
 #include "vera/visible/gradient_fit.h"
 #include "vera/visible/region_paint.h"
 
 #include <algorithm>
 #include <iterator>
+#include <mutex>
 #include <span>
 #include <utility>
 
@@ -22,7 +24,7 @@ std::vector<FilledOutline> shaded_outline(LitOutline lit, const ShadedScene& sha
     region.outline = std::move(lit.outline);
     const RegionLight light(
         shaded.scene, shaded.camera, shaded.picture, shaded.facets, lit.facet, lit.lights);
-    return painted(std::move(region), light, shaded.tolerance);
+    return painted(std::move(region), light, shaded.tolerance, shaded.cancel);
 }
 
 /// Where the rays of the picture go up.
@@ -40,12 +42,17 @@ std::vector<FilledOutline>
 shaded_outlines(std::vector<LitOutline> outlines, const ShadedScene& shaded) {
     std::vector<std::vector<FilledOutline>> parts(outlines.size());
     constexpr std::size_t grain = 16;
+    std::mutex mutex;
+    std::size_t done = 0;
     parallel_ranges(outlines.size(), grain, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
-            if (shaded.cancel != nullptr)
-                shaded.cancel->throw_if_raised();
+            stop_if_raised(shaded.cancel);
             parts[i] = shaded_outline(std::move(outlines[i]), shaded);
         }
+        const std::lock_guard lock(mutex);
+        done += last - first;
+        if (shaded.progress)
+            shaded.progress(static_cast<double>(done) / static_cast<double>(outlines.size()));
     });
     std::vector<FilledOutline> all;
     for (std::vector<FilledOutline>& of_one : parts)
@@ -54,7 +61,10 @@ shaded_outlines(std::vector<LitOutline> outlines, const ShadedScene& shaded) {
 }
 
 DrawnFirmament drawn_firmament(
-    const Camera& camera, const PictureSettings& picture, const PaintTolerance& tolerance) {
+    const Camera& camera,
+    const PictureSettings& picture,
+    const PaintTolerance& tolerance,
+    const CancelFlag* cancel) {
     DrawnFirmament drawn;
     if (!picture.firmament)
         return drawn;
@@ -73,7 +83,7 @@ DrawnFirmament drawn_firmament(
     region.outline.id = region.outline.group = "sky";
     region.outline.rings = cut_rings(frame, above);
     if (!region.outline.rings.empty())
-        drawn.sky = painted(std::move(region), sky, tolerance);
+        drawn.sky = painted(std::move(region), sky, tolerance, cancel);
     const bool shows_earth = !cut_rings(frame, below).empty();
     if (shows_earth) {
         const ColorSample earth = {{}, picture.firmament->earth};

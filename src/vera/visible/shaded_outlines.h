@@ -31,11 +31,12 @@ struct ShadedScene {
     const PictureSettings& picture;
     const Facets& facets;
     PaintTolerance tolerance;
+    Progress progress = {};
     const CancelFlag* cancel = nullptr;
 };
 
 /// The outlines, in their order, each in one colour or gradient, or cut into parts that are; see
-/// painted().
+/// painted(). Throws Cancelled.
 std::vector<FilledOutline>
 shaded_outlines(std::vector<LitOutline> outlines, const ShadedScene& shaded);
 
@@ -46,6 +47,9 @@ struct DrawnFirmament {
 };
 
 DrawnFirmament drawn_firmament(
-    const Camera& camera, const PictureSettings& picture, const PaintTolerance& tolerance);
+    const Camera& camera,
+    const PictureSettings& picture,
+    const PaintTolerance& tolerance,
+    const CancelFlag* cancel = nullptr);
 
 } // namespace vera

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/shadows.h"
 
+#include "vera/base/long_loop.h"
 #include "vera/base/progress_part.h"
 #include "vera/math/box3.h"
 #include "vera/visible/cell_raster.h"
 #include "vera/visible/cells.h"
 #include "vera/visible/cut_polygon.h"
+#include "vera/visible/drawing_memory.h"
 #include "vera/visible/light_views.h"
 #include "vera/visible/vertex_numbers.h"
 
@@ -99,12 +101,19 @@ double viewer_height(const Camera& camera, const FacePlane& plane) {
 
 /// A box of all that is seen: of the ends of its borders, each on the planes beside it.
 /// Tells also the size of the smallest pixel there.
-Box3 seen_box(const ShadowedScene& shadowed, const ScreenScene& screen, double& pixel) {
+Box3 seen_box(
+    const ShadowedScene& shadowed,
+    const ScreenScene& screen,
+    const CancelFlag* cancel,
+    double& pixel) {
     Box3 all;
     for (const Vec3& corner : shadowed.facets.corners)
         all = grown(all, corner);
     Box3 seen;
-    for (const VisiblePiece& piece : shadowed.seen.pieces)
+    const LongLoop loop(shadowed.seen.pieces.size(), {}, cancel);
+    for (std::size_t i = 0; i < shadowed.seen.pieces.size(); ++i) {
+        loop.turn(i);
+        const VisiblePiece& piece = shadowed.seen.pieces[i];
         for (const std::uint32_t triangle : {piece.left, piece.right}) {
             if (triangle == no_triangle)
                 continue;
@@ -123,6 +132,7 @@ Box3 seen_box(const ShadowedScene& shadowed, const ScreenScene& screen, double& 
                     pixel, shadowed.map.size_of_pixel(shadowed.width, shadowed.height, at));
             }
         }
+    }
     const bool is_finite = std::isfinite(length(seen.upper - seen.lower));
     return seen.empty() || !is_finite ? all : seen;
 }
@@ -199,6 +209,7 @@ public:
         , light_(light)
         , position_(shadowed.scene.lights[light].position)
         , screen_(screen)
+        , memory_(screen)
         , cancel_(cancel) {}
 
     void add(const Progress& progress, ShadowCounts& counts);
@@ -223,13 +234,16 @@ private:
     std::uint32_t light_;
     Vec3 position_;
     ScreenScene& screen_;
+    ShadowMemory memory_;
     const CancelFlag* cancel_;
     std::vector<PartlyLit> partly_lit_;
 };
 
 /// Tells which faces the light reaches none of, and which a part of.
 void LightShadows::find_partly_lit(const LitFacets& lit) {
+    const LongLoop loop(receivers_.size(), {}, cancel_);
     for (std::uint32_t face = 0; face < receivers_.size(); ++face) {
+        loop.turn(face);
         if (!receivers_[face].is_seen)
             continue;
         FacePlane plane = plane_of(shadowed_, face, end_facet(face));
@@ -278,8 +292,7 @@ std::vector<Throw> LightShadows::throws(const LightViews& views) const {
         parallel_ranges(of.triangles.size(), 1024, [&](std::size_t first, std::size_t last) {
             std::vector<Throw> found;
             for (std::size_t i = first; i < last; ++i) {
-                if (cancel_ != nullptr)
-                    cancel_->throw_if_raised();
+                stop_if_raised(cancel_);
                 const ScreenTriangle& triangle = of.triangles[i];
                 const std::uint32_t partly_lit = number[shadowed_.faces.of_facet[triangle.source]];
                 if (partly_lit != none)
@@ -292,6 +305,8 @@ std::vector<Throw> LightShadows::throws(const LightViews& views) const {
                         found);
             }
             const std::lock_guard lock(mutex);
+            if (result.size() + found.size() > result.capacity())
+                memory_.require(result.size() + found.size());
             result.insert(result.end(), found.begin(), found.end());
         });
     };
@@ -377,8 +392,10 @@ void LightShadows::add_to_screen(
 }
 
 void LightShadows::add(const Progress& progress, ShadowCounts& counts) {
+    StageProgress stages(progress, 4);
     const LightViews views =
-        light_views(shadowed_.scene, shadowed_.facets, position_, box_, progress, cancel_);
+        light_views(shadowed_.scene, shadowed_.facets, position_, box_, stages.next(3), cancel_);
+    const Progress of_shadows = stages.next(1);
     counts.cut_nearness = std::max(counts.cut_nearness, views.cut_nearness);
     counts.light_step = std::max(counts.light_step, views.step);
     find_partly_lit(views.lit);
@@ -386,13 +403,17 @@ void LightShadows::add(const Progress& progress, ShadowCounts& counts) {
     const std::vector<Throw> thrown = throws(views);
     std::vector<std::vector<ImagePoint>> shadows(thrown.size());
     parallel_ranges(thrown.size(), 256, [&](std::size_t first, std::size_t last) {
+        stop_if_raised(cancel_);
         for (std::size_t i = first; i < last; ++i)
             shadows[i] = shadow(thrown[i]);
     });
     const std::size_t before = screen_.triangles.size();
     VertexNumbers numbers(screen_.vertices);
-    for (std::size_t i = 0; i < thrown.size(); ++i)
+    const LongLoop loop(thrown.size(), of_shadows, cancel_);
+    for (std::size_t i = 0; i < thrown.size(); ++i) {
+        loop.turn(i);
         add_to_screen(thrown[i], shadows[i], numbers);
+    }
     counts.shadows += screen_.triangles.size() - before;
 }
 
@@ -407,7 +428,7 @@ ShadowCounts add_shadows(
     const std::size_t faces = shadowed.faces.first_facet.size();
     const std::vector<Receiver> receivers = receivers_of(screen, shadowed.seen, faces);
     double pixel = std::numeric_limits<double>::infinity();
-    const Box3 box = seen_box(shadowed, screen, pixel);
+    const Box3 box = seen_box(shadowed, screen, cancel, pixel);
     screen.unlit.assign(faces, 0);
     const std::size_t lights =
         std::min<std::size_t>(shadowed.scene.lights.size(), most_lights_of_a_set);

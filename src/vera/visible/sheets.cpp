@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/sheets.h"
 
+#include "vera/base/long_loop.h"
 #include "vera/base/parallel.h"
 
 #include <algorithm>
@@ -156,7 +157,7 @@ std::vector<std::uint8_t> joined_triangles(const SheetScene& sheets) {
 
 } // namespace
 
-void block_by_sheets(Cells& cells, const SheetScene& sheets) {
+void block_by_sheets(Cells& cells, const SheetScene& sheets, const CancelFlag* cancel) {
     // In longer lists there is hardly a cell without a border, and joining takes long.
     constexpr std::size_t longest = 256;
     const std::vector<std::uint8_t> joined = joined_triangles(sheets);
@@ -186,6 +187,7 @@ void block_by_sheets(Cells& cells, const SheetScene& sheets) {
         ends[cell] = static_cast<std::uint32_t>(kept - cells.triangles.begin());
     };
     parallel_ranges(cells.blocked.size(), 4096, [&](std::size_t first, std::size_t last) {
+        stop_if_raised(cancel);
         SheetsOfCell sheets_of_cell(sheets);
         for (std::size_t cell = first; cell < last; ++cell)
             block(cell, sheets_of_cell);

@@ -18,7 +18,7 @@ struct SheetScene {
 
 /// Blocks cells by sheets: triangles that hang together, of which none alone covers the cell. Where
 /// no border or fold of a sheet passes through a cell that it touches, it covers the cell. What
-/// lies behind is then left out there.
-void block_by_sheets(Cells& cells, const SheetScene& sheets);
+/// lies behind is then left out there. Throws Cancelled.
+void block_by_sheets(Cells& cells, const SheetScene& sheets, const CancelFlag* cancel = nullptr);
 
 } // namespace vera

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/sweep_segments.h"
 
+#include "vera/base/long_loop.h"
+
 #include <algorithm>
 #include <numeric>
 #include <tuple>
@@ -95,13 +97,18 @@ void add_parts(
 
 } // namespace
 
-SweepSegments sweep_segments(const ScreenScene& scene, const ScreenEdges& edges) {
+SweepSegments
+sweep_segments(const ScreenScene& scene, const ScreenEdges& edges, const CancelFlag* cancel) {
     std::vector<EdgeOnLine> lines(edges.edges.size());
-    for (std::uint32_t i = 0; i < lines.size(); ++i)
+    const LongLoop loop(lines.size(), {}, cancel);
+    for (std::uint32_t i = 0; i < lines.size(); ++i) {
+        loop.turn(i);
         lines[i] = on_line(scene, edges, i);
+    }
     std::sort(lines.begin(), lines.end(), [](const EdgeOnLine& a, const EdgeOnLine& b) {
         return a.key() < b.key();
     });
+    stop_if_raised(cancel);
     const EdgeBorders borders(scene, edges);
     SweepSegments result;
     result.segments.reserve(lines.size());
@@ -109,6 +116,7 @@ SweepSegments sweep_segments(const ScreenScene& scene, const ScreenEdges& edges)
     result.starts.reserve(lines.size() + 1);
     result.starts.push_back(0);
     for (auto first = lines.begin(); first != lines.end();) {
+        stop_if_raised(cancel);
         const auto last = std::find_if(first, lines.end(), [&](const EdgeOnLine& edge) {
             return edge.line() != first->line();
         });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "vera/base/parallel.h"
 #include "vera/exact/screen_point.h"
 #include "vera/visible/edges.h"
 #include "vera/visible/screen_scene.h"
@@ -36,6 +37,8 @@ struct SweepSegments {
     }
 };
 
-SweepSegments sweep_segments(const ScreenScene& scene, const ScreenEdges& edges);
+/// Throws Cancelled.
+SweepSegments sweep_segments(
+    const ScreenScene& scene, const ScreenEdges& edges, const CancelFlag* cancel = nullptr);
 
 } // namespace vera

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/visible_map.h"
 
+#include "vera/base/long_loop.h"
+#include "vera/base/progress_part.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -66,7 +69,11 @@ struct Leaving {
     }
 };
 
-Leaving leaving_ways(const Ways& ways, std::size_t vertex_count) {
+Leaving leaving_ways(
+    const Ways& ways,
+    std::size_t vertex_count,
+    const Progress& progress,
+    const CancelFlag* cancel) {
     Leaving leaving;
     leaving.starts.resize(vertex_count + 1);
     for (std::uint32_t way = 0; way < ways.count(); ++way)
@@ -76,7 +83,9 @@ Leaving leaving_ways(const Ways& ways, std::size_t vertex_count) {
     std::vector<std::uint32_t> next(leaving.starts.begin(), leaving.starts.end() - 1);
     for (std::uint32_t way = 0; way < ways.count(); ++way)
         leaving.ways[next[ways.from(way)]++] = way;
+    const LongLoop loop(vertex_count, progress, cancel);
     for (std::size_t vertex = 0; vertex < vertex_count; ++vertex) {
+        loop.turn(vertex);
         const std::span<std::uint32_t> here = leaving.of(vertex);
         std::sort(here.begin(), here.end(), [&](std::uint32_t a, std::uint32_t b) {
             return turns_before(ways.direction(a), ways.direction(b));
@@ -93,7 +102,12 @@ struct Loose {
 
 /// Joins each end to the nearest beginning of its region that is left. Those whose nearest is the
 /// nearest come first: none takes the one that belongs to another.
-void join(Loose loose, const Ways& ways, std::vector<std::uint32_t>& following, VisibleMap& map) {
+void join(
+    Loose loose,
+    const Ways& ways,
+    const CancelFlag* cancel,
+    std::vector<std::uint32_t>& following,
+    VisibleMap& map) {
     const auto by_region = [&](std::uint32_t a, std::uint32_t b) {
         return ways.region[a] != ways.region[b] ? ways.region[a] < ways.region[b] : a < b;
     };
@@ -121,10 +135,13 @@ void join(Loose loose, const Ways& ways, std::vector<std::uint32_t>& following, 
                 });
         };
         std::vector<std::pair<double, std::uint32_t>> ends;
-        for (std::size_t i = first; i < last; ++i)
+        for (std::size_t i = first; i < last; ++i) {
+            stop_if_raised(cancel);
             ends.emplace_back(distance(loose.ends[i], *nearest(loose.ends[i])), loose.ends[i]);
+        }
         std::sort(ends.begin(), ends.end());
         for (const auto& [_, end] : ends) {
+            stop_if_raised(cancel);
             const auto begin = nearest(end);
             ++map.joined;
             following[end] = *begin;
@@ -135,11 +152,15 @@ void join(Loose loose, const Ways& ways, std::vector<std::uint32_t>& following, 
 
 /// Of each way the one that follows on the same region's border: at its end the first to the right
 /// of the way back.
-std::vector<std::uint32_t> following(const Ways& ways, VisibleMap& map) {
-    Leaving leaving = leaving_ways(ways, map.vertices.size());
+std::vector<std::uint32_t>
+following(const Ways& ways, const Progress& progress, const CancelFlag* cancel, VisibleMap& map) {
+    Leaving leaving =
+        leaving_ways(ways, map.vertices.size(), progress_part(progress, 0, 2), cancel);
     std::vector<std::uint32_t> result(ways.count());
     Loose loose;
+    const LongLoop loop(map.vertices.size(), progress_part(progress, 1, 2), cancel);
     for (std::size_t vertex = 0; vertex < map.vertices.size(); ++vertex) {
+        loop.turn(vertex);
         const std::span<const std::uint32_t> here = leaving.of(vertex);
         for (std::size_t i = 0; i < here.size(); ++i) {
             const std::uint32_t coming = here[i] ^ 1U;
@@ -151,7 +172,7 @@ std::vector<std::uint32_t> following(const Ways& ways, VisibleMap& map) {
             }
         }
     }
-    join(std::move(loose), ways, result, map);
+    join(std::move(loose), ways, cancel, result, map);
     return result;
 }
 
@@ -206,11 +227,19 @@ private:
     std::vector<Listed> listed_;
 };
 
-Ways ways_of(const ScreenScene& scene, const std::vector<VisiblePiece>& pieces, VisibleMap& map) {
+Ways ways_of(
+    const ScreenScene& scene,
+    const std::vector<VisiblePiece>& pieces,
+    const Progress& progress,
+    const CancelFlag* cancel,
+    VisibleMap& map) {
+    StageProgress stages(progress, 2);
     Ways ways(scene, pieces);
     // Calls visit(way, region) for the ways with one on their left.
     const auto for_each_region = [&](const auto& visit) {
+        const LongLoop loop(pieces.size(), stages.next(1), cancel);
         for (std::size_t i = 0; i < pieces.size(); ++i) {
+            loop.turn(i);
             const VisiblePiece& piece = pieces[i];
             if (piece.left != no_triangle)
                 visit(
@@ -236,15 +265,23 @@ bool is_straight_on(ScreenStep a, ScreenStep b) {
 }
 
 /// Whose vertices are there already.
-void fill_map(const ScreenScene& scene, const std::vector<VisiblePiece>& pieces, VisibleMap& map) {
-    const Ways ways = ways_of(scene, pieces, map);
-    const std::vector<std::uint32_t> next = following(ways, map);
+void fill_map(
+    const ScreenScene& scene,
+    const std::vector<VisiblePiece>& pieces,
+    const Progress& progress,
+    const CancelFlag* cancel,
+    VisibleMap& map) {
+    StageProgress stages(progress, 3);
+    const Ways ways = ways_of(scene, pieces, stages.next(1), cancel, map);
+    const std::vector<std::uint32_t> next = following(ways, stages.next(1), cancel, map);
     std::vector<std::uint8_t> done(ways.count());
     const auto add = [&](std::uint32_t vertex, std::uint32_t across) {
         map.ring_vertices.push_back(vertex);
         map.ring_across.push_back(across);
     };
+    const LongLoop loop(ways.count(), stages.next(1), cancel);
     for (std::uint32_t first = 0; first < ways.count(); ++first) {
+        loop.turn(first);
         if (done[first] != 0 || ways.region[first] == no_region)
             continue;
         VisibleMap::Ring ring = {
@@ -274,18 +311,26 @@ void fill_map(const ScreenScene& scene, const std::vector<VisiblePiece>& pieces,
 
 } // namespace
 
-VisibleMap visible_map(const ScreenScene& scene, const VisiblePieces& pieces) {
+VisibleMap visible_map(
+    const ScreenScene& scene,
+    const VisiblePieces& pieces,
+    const Progress& progress,
+    const CancelFlag* cancel) {
     VisibleMap map;
     map.vertices = pieces.points;
-    fill_map(scene, pieces.pieces, map);
+    fill_map(scene, pieces.pieces, progress, cancel, map);
     return map;
 }
 
-VisibleMap visible_map(const ScreenScene& scene, VisiblePieces&& pieces) {
+VisibleMap visible_map(
+    const ScreenScene& scene,
+    VisiblePieces&& pieces,
+    const Progress& progress,
+    const CancelFlag* cancel) {
     VisiblePieces taken = std::move(pieces);
     VisibleMap map;
     map.vertices = std::move(taken.points);
-    fill_map(scene, taken.pieces, map);
+    fill_map(scene, taken.pieces, progress, cancel, map);
     return map;
 }
 

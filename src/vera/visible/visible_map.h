@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "vera/base/parallel.h"
 #include "vera/visible/cell_raster.h"
 #include "vera/visible/screen_scene.h"
 
@@ -56,10 +57,19 @@ struct VisibleMap {
     }
 };
 
-VisibleMap visible_map(const ScreenScene& scene, const VisiblePieces& pieces);
+/// Throws Cancelled.
+VisibleMap visible_map(
+    const ScreenScene& scene,
+    const VisiblePieces& pieces,
+    const Progress& progress = {},
+    const CancelFlag* cancel = nullptr);
 
 /// The same where the pieces are not needed any more: takes less memory.
-VisibleMap visible_map(const ScreenScene& scene, VisiblePieces&& pieces);
+VisibleMap visible_map(
+    const ScreenScene& scene,
+    VisiblePieces&& pieces,
+    const Progress& progress = {},
+    const CancelFlag* cancel = nullptr);
 
 /// Twice the area that the ring encloses, about, in steps of the grid; negative round a hole.
 double doubled_area(const VisibleMap& map, const VisibleMap::Ring& ring);

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vera/visible/outline_fills.h"
+
+#include "vera/base/long_loop.h"
+#include "vera/base/progress_part.h"
+#include "vera/scene/item_names.h"
+#include "vera/scene/surface.h"
+#include "vera/visible/face_color.h"
+#include "vera/visible/region_outlines.h"
+#include "vera/visible/shaded_outlines.h"
+#include "vera/visible/trapping.h"
+#include "vera/visible/underlays.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace vera {
+
+namespace {
+
+/// Of the item that holds the primitive: what it is, and where it was written.
+std::string group_name(const Scene& scene, std::uint64_t primitive) {
+    const PrimitivePath path = path_to(scene, primitive);
+    const Item& item = path.geometry->items[path.element.item];
+    std::string name = name_of(item.kind);
+    if (!path.geometry->name.empty())
+        name += " of " + path.geometry->name;
+    return item.line == 0 ? name : name + ", line " + std::to_string(item.line);
+}
+
+/// Gives outlines the ids and groups of what they show.
+class OutlineNames {
+public:
+    explicit OutlineNames(const Scene& scene)
+        : scene_(scene) {}
+
+    void name(std::uint64_t primitive, FilledOutline& outline) {
+        if (group_.empty() || primitive != grouped_)
+            group_ = group_name(scene_, primitive);
+        grouped_ = primitive;
+        outline.id = "face-" + std::to_string(primitive + 1);
+        outline.group = group_;
+    }
+
+private:
+    const Scene& scene_;
+    std::uint64_t grouped_ = 0; ///< the primitive whose group the last one was
+    std::string group_;
+};
+
+std::uint32_t facet_of(const FillSources& sources, const RegionOutlines& regions, std::size_t i) {
+    return sources.faces.first_facet[regions.rings(i).front().source];
+}
+
+/// The firmament and, on it, the outlines as the light shades them.
+void add_shaded(
+    const FillSources& sources,
+    const RegionOutlines& regions,
+    const Progress& progress,
+    const CancelFlag* cancel,
+    Drawing& drawing) {
+    StageProgress stages(progress, 10);
+    OutlineNames names(sources.scene);
+    std::vector<LitOutline> lit(regions.count());
+    const LongLoop loop(regions.count(), stages.next(1), cancel, 16);
+    for (std::size_t i = 0; i < regions.count(); ++i) {
+        loop.turn(i);
+        const std::uint32_t facet = facet_of(sources, regions, i);
+        FilledOutline outline;
+        names.name(sources.facets.triangles[facet].primitive, outline);
+        regions.add_rings(i, outline);
+        cover_seams_closely(regions, i, outline);
+        lit[i] = {
+            std::move(outline), regions.rings(i).size(), facet, ~sources.map.regions[i].unlit};
+    }
+    DrawnFirmament firmament =
+        drawn_firmament(sources.camera, sources.picture, sources.tolerance, cancel);
+    drawing.background = firmament.background;
+    drawing.fills = std::move(firmament.sky);
+    std::ranges::move(
+        shaded_outlines(
+            std::move(lit),
+            {sources.scene,
+             sources.camera,
+             sources.picture,
+             sources.facets,
+             sources.tolerance,
+             stages.next(9),
+             cancel}),
+        std::back_inserter(drawing.fills));
+}
+
+/// The outlines in one colour each, on underlays.
+void add_flat(
+    const FillSources& sources,
+    const RegionOutlines& regions,
+    const Progress& progress,
+    const CancelFlag* cancel,
+    Drawing& drawing) {
+    StageProgress stages(progress, 10);
+    OutlineNames names(sources.scene);
+    const std::vector<bool> is_covering_whole = covering_whole(regions, stages.next(1), cancel);
+    const LongLoop loop(regions.count(), stages.next(5), cancel, 256);
+    for (std::size_t i = 0; i < regions.count(); ++i) {
+        loop.turn(i);
+        FilledOutline& outline = drawing.fills.emplace_back();
+        outline.color = region_color(sources, regions.rings(i));
+        names.name(sources.facets.triangles[facet_of(sources, regions, i)].primitive, outline);
+        regions.add_rings(i, outline);
+        cover_seams(regions, is_covering_whole, i, outline);
+    }
+    std::vector<FilledOutline> below = underlays(regions, drawing.fills, stages.next(4), cancel);
+    drawing.fills.insert(
+        drawing.fills.begin(),
+        std::make_move_iterator(below.begin()),
+        std::make_move_iterator(below.end()));
+}
+
+/// The outlines in the colours of their numbers. These are to be compared, not looked at: the
+/// colour says all, and the file stays small.
+void add_numbers(
+    const FillSources& sources,
+    const RegionOutlines& regions,
+    const Progress& progress,
+    const CancelFlag* cancel,
+    Drawing& drawing) {
+    const LongLoop loop(regions.count(), progress, cancel, 256);
+    for (std::size_t i = 0; i < regions.count(); ++i) {
+        loop.turn(i);
+        FilledOutline& outline = drawing.fills.emplace_back();
+        outline.color = region_color(sources, regions.rings(i));
+        regions.add_rings(i, outline);
+    }
+}
+
+} // namespace
+
+void add_fills(
+    const FillSources& sources,
+    const Progress& progress,
+    const CancelFlag* cancel,
+    Drawing& drawing) {
+    drawing.background = background_color(sources);
+    const RegionOutlines regions(sources.map, sources.picture);
+    if (sources.style == DrawingStyle::shaded)
+        add_shaded(sources, regions, progress, cancel, drawing);
+    else if (sources.style == DrawingStyle::ids)
+        add_numbers(sources, regions, progress, cancel, drawing);
+    else
+        add_flat(sources, regions, progress, cancel, drawing);
+}
+
+} // namespace vera

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// Trapping, as printers call it: where two areas meet, what smooths edges lets through what lies
+// behind both. So the one that is painted earlier goes on below the other.
+#pragma once
+
+#include "vera/base/parallel.h"
+#include "vera/drawing/drawing.h"
+#include "vera/visible/region_outlines.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace vera {
+
+/// Of each region, whether others go on below the whole of it: where it is small, or so narrow that
+/// a strip below its border would come out beyond it. Throws Cancelled.
+std::vector<bool> covering_whole(
+    const RegionOutlines& regions,
+    const Progress& progress = {},
+    const CancelFlag* cancel = nullptr);
+
+/// Lets the outline of the region, which has its rings and no others, go on below those beside it
+/// that are painted later: below all of those that are covering whole, which moves no silhouette;
+/// below the others as a seam.
+void cover_seams(
+    const RegionOutlines& regions,
+    const std::vector<bool>& is_covering_whole,
+    std::size_t region,
+    FilledOutline& outline);
+
+/// The same for areas that change their colours from place to place: a region goes on below those
+/// beside it only close to their common border, whatever their size.
+void cover_seams_closely(const RegionOutlines& regions, std::size_t region, FilledOutline& outline);
+
+} // namespace vera

@@ -1,0 +1,405 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a drawing takes of memory, compared with what is told before, and what is left behind when
+// memory runs out. A program of its own, as it replaces operator new.
+#include "vera/base/available_memory.h"
+#include "vera/base/parallel.h"
+#include "vera/drawing/drawing_file.h"
+#include "vera/visible/cell_raster.h"
+#include "vera/visible/draw_scene.h"
+#include "vera/visible/drawing_memory.h"
+#include "vera/visible/drawn_faces.h"
+#include "vera/visible/penetrations.h"
+#include "vera/visible/projection.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstdlib>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "base/memory_is_watched.h"
+#include "visible/screen_scenes.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <malloc.h>
+
+namespace {
+
+constexpr long no_end = -1;
+
+/// How many more times memory is given; without end unless a test says otherwise.
+std::atomic<long> times_left = no_end;
+std::atomic<long> blocks = 0;
+std::atomic<long> bytes = 0;
+std::atomic<long> most_bytes = 0;
+
+bool may_be_given() {
+    long left = times_left.load();
+    while (left > 0 && !times_left.compare_exchange_weak(left, left - 1)) {
+    }
+    return left != 0;
+}
+
+void* block_or_throw(std::size_t size, std::size_t alignment) {
+    // aligned_alloc wants whole multiples, and there are no blocks of no bytes.
+    const std::size_t whole = (size / alignment + 1) * alignment;
+    void* const block = may_be_given() ? std::aligned_alloc(alignment, whole) : nullptr;
+    if (block == nullptr)
+        throw std::bad_alloc();
+    ++blocks;
+    const long now = bytes += static_cast<long>(malloc_usable_size(block));
+    long most = most_bytes;
+    while (now > most && !most_bytes.compare_exchange_weak(most, now)) {
+    }
+    return block;
+}
+
+void give_back(void* block) noexcept {
+    if (block == nullptr)
+        return;
+    --blocks;
+    bytes -= static_cast<long>(malloc_usable_size(block));
+    std::free(block); // NOLINT
+}
+
+constexpr std::size_t usual_alignment = __STDCPP_DEFAULT_NEW_ALIGNMENT__;
+
+} // namespace
+
+// All forms that are used: those that are left out may not call these, under AddressSanitizer.
+void* operator new(std::size_t size) {
+    return block_or_throw(size, usual_alignment);
+}
+
+void* operator new[](std::size_t size) {
+    return block_or_throw(size, usual_alignment);
+}
+
+void* operator new(std::size_t size, std::align_val_t alignment) {
+    return block_or_throw(size, static_cast<std::size_t>(alignment));
+}
+
+void* operator new[](std::size_t size, std::align_val_t alignment) {
+    return block_or_throw(size, static_cast<std::size_t>(alignment));
+}
+
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+    try {
+        return block_or_throw(size, usual_alignment);
+    } catch (const std::bad_alloc&) {
+        return nullptr;
+    }
+}
+
+void* operator new[](std::size_t size, const std::nothrow_t& tag) noexcept {
+    return operator new(size, tag);
+}
+
+void operator delete(void* block) noexcept {
+    give_back(block);
+}
+
+void operator delete[](void* block) noexcept {
+    give_back(block);
+}
+
+void operator delete(void* block, std::size_t) noexcept {
+    give_back(block);
+}
+
+void operator delete[](void* block, std::size_t) noexcept {
+    give_back(block);
+}
+
+void operator delete(void* block, std::align_val_t) noexcept {
+    give_back(block);
+}
+
+void operator delete[](void* block, std::align_val_t) noexcept {
+    give_back(block);
+}
+
+void operator delete(void* block, std::size_t, std::align_val_t) noexcept {
+    give_back(block);
+}
+
+void operator delete[](void* block, std::size_t, std::align_val_t) noexcept {
+    give_back(block);
+}
+
+void operator delete(void* block, const std::nothrow_t&) noexcept {
+    give_back(block);
+}
+
+void operator delete[](void* block, const std::nothrow_t&) noexcept {
+    give_back(block);
+}
+
+namespace vera {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// The most bytes that there were at once beside those before, while the work ran.
+template <typename Work>
+double most_bytes_of(const Work& work) {
+    const long before = bytes;
+    most_bytes = before;
+    work();
+    return static_cast<double>(most_bytes - before);
+}
+
+struct Family {
+    std::string name;
+    ScreenScene scene;
+};
+
+std::vector<Family> families() {
+    std::vector<Family> all;
+    all.push_back({"scattered", testing::scattered(1, 30'000, screen_size / 100)});
+    all.push_back({"scattered, large", testing::scattered(1, 2'000, screen_size / 10)});
+    all.push_back({"scattered, small", testing::scattered(1, 60'000, screen_size / 1000)});
+    all.push_back({"terrain", testing::terrain(1, 120)});
+    all.push_back({"balls", testing::balls(1, 20, 30)});
+    all.push_back({"star", testing::star(3'000)});
+    all.push_back({"tangle", testing::tangle(1, 600)});
+    all.push_back({"slivers", testing::slivers(1, 1'000)});
+    all.push_back({"nested holes", testing::nested_holes(400)});
+    // Long edges that cross many short ones are few, and have most of the pieces.
+    all.push_back({"bars over dust", testing::scattered(1, 20'000, screen_size / 300)});
+    for (std::int32_t i = 0; i < 40; ++i) {
+        ScreenScene& scene = all.back().scene;
+        const auto first = static_cast<std::uint32_t>(scene.vertices.size());
+        const std::int32_t y = screen_size / 41 * (i + 1);
+        scene.vertices.push_back({{0, y}, depth_size});
+        scene.vertices.push_back({{screen_size, y}, depth_size});
+        scene.vertices.push_back({{screen_size, y + 20'000}, depth_size});
+        add_triangle(scene, {first, first + 1, first + 2}, static_cast<std::uint32_t>(100'000 + i));
+    }
+    all.push_back({"shadows", testing::scattered(2, 10'000, screen_size / 100)});
+    for (std::size_t i = 0; i < 10'000; ++i) {
+        ScreenScene& scene = all.back().scene;
+        const ScreenTriangle on = scene.triangles[i % scene.triangles.size()];
+        ScreenVertex middle = corners_of(scene, on)[2];
+        middle.point.x = (middle.point.x + corners_of(scene, on)[0].point.x) / 2;
+        scene.vertices.push_back(middle);
+        const auto last = static_cast<std::uint32_t>(scene.vertices.size() - 1);
+        add_part(scene, {on.vertices[0], on.vertices[1], last}, on, 0);
+    }
+    for (Family& family : all)
+        sort_by_place(family.scene);
+    return all;
+}
+
+TEST(DrawingMemory, PiecesAreForetoldFromAFewEdges) {
+    for (const Family& family : families()) {
+        double expected = -1;
+        const VisiblePieces found =
+            cell_raster(family.scene, {}, nullptr, [&](double pieces) { expected = pieces; });
+        const auto count = static_cast<double>(found.pieces.size());
+        constexpr double few = 200; // are not worth to be known better
+        EXPECT_GE(expected, count / 1.25 - few) << family.name;
+        EXPECT_LE(expected, count * 1.25 + few) << family.name;
+    }
+}
+
+TEST(DrawingMemory, TheRasterTakesWhatIsForetold) {
+    if (memory_is_watched())
+        GTEST_SKIP() << "a sanitizer takes memory of its own";
+    const ThreadLimit one(1);
+    for (const Family& family : families()) {
+        const ScreenScene& scene = family.scene;
+        std::size_t pieces = 0;
+        const double taken = most_bytes_of([&] { pieces = cell_raster(scene).pieces.size(); });
+        const double told =
+            raster_bytes(counts_of(scene)) + piece_bytes(static_cast<double>(pieces));
+        constexpr double few = 0x1p18; // cells may list, however few triangles there are
+        EXPECT_GE(told, taken - few) << family.name;
+        EXPECT_LE(told, taken * 2.25) << family.name;
+    }
+}
+
+/// The triangles in space, each a primitive, as a camera of parallel rays sees them on the screen.
+Scene in_space(const ScreenScene& screen, Camera& camera) {
+    Scene scene;
+    scene.lights.resize(1);
+    scene.lights[0].position = {0.2, 0.9, 3};
+    for (const ScreenTriangle& triangle : screen.triangles) {
+        Triangle of;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const ScreenVertex& vertex = screen.vertices[triangle.vertices[i]];
+            of.corners[i] = {
+                static_cast<double>(vertex.point.x) / screen_size,
+                1 - static_cast<double>(vertex.point.y) / screen_size,
+                static_cast<double>(vertex.nearness) / static_cast<double>(depth_size)};
+        }
+        Item item;
+        item.kind = ItemKind::triangle;
+        item.index = static_cast<std::uint32_t>(scene.geometry.triangles.size());
+        scene.geometry.triangles.push_back(of);
+        scene.geometry.items.push_back(item);
+    }
+    number_primitives(scene);
+    camera.projection = Camera::Projection::parallel;
+    camera.direction = {0, 0, -1};
+    camera.lower_left = {0, 0, 2};
+    camera.lower_right = {1, 0, 2};
+    camera.upper_left = {0, 1, 2};
+    return scene;
+}
+
+TEST(DrawingMemory, ADrawingTakesWhatIsForetold) {
+    if (memory_is_watched())
+        GTEST_SKIP() << "a sanitizer takes memory of its own";
+    const ThreadLimit one(1);
+    PictureSettings picture;
+    picture.width = picture.height = 800;
+    picture.shadows = false;
+    const ScreenScene screens[] = {
+        testing::scattered(1, 15'000, screen_size / 80),
+        testing::scattered(1, 30'000, screen_size / 400),
+        testing::terrain(1, 90),
+        testing::balls(1, 20, 24)};
+    for (const ScreenScene& screen : screens) {
+        Camera camera;
+        const Scene scene = in_space(screen, camera);
+        // What there is when the forecast is made.
+        const long before = bytes;
+        const Facets all = facets(scene, [](Vec3) { return 0.1; });
+        const DrawnFaces faces = drawn_faces(scene, all, FaceUnit::plane, camera);
+        ScreenScene on_screen = screen_scene(all, CameraMap(camera), faces.of_facet);
+        sort_by_place(on_screen);
+        const auto there = static_cast<double>(bytes - before);
+        ScreenScene whole = on_screen;
+        const VisiblePieces pieces = whole_pieces(whole).pieces;
+        for (const DrawingStyle style :
+             {DrawingStyle::flat,
+              DrawingStyle::shaded,
+              DrawingStyle::ids,
+              DrawingStyle::lines,
+              DrawingStyle::hidden_lines,
+              DrawingStyle::toon}) {
+            const double taken = most_bytes_of([&] {
+                DrawSettings settings;
+                settings.style = style;
+                const DrawnScene drawn = draw_scene(scene, camera, picture, settings);
+                std::string text;
+                write_svg(drawn.drawing, {}, text);
+            });
+            const auto count = static_cast<double>(pieces.pieces.size());
+            const double told = there
+                + std::max(raster_bytes(counts_of(on_screen)) + piece_bytes(count),
+                           drawing_bytes(count, style));
+            EXPECT_GE(told, taken / 1.1) << static_cast<int>(style);
+            EXPECT_LE(told, taken * 2.25) << static_cast<int>(style);
+        }
+    }
+}
+
+std::string refusal(const std::function<void()>& work) {
+    try {
+        work();
+    } catch (const std::runtime_error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(DrawingMemory, WhatDoesNotFitIsRefusedBeforeItIsTaken) {
+    const ScreenScene scene = testing::scattered(1, 60'000, screen_size / 50);
+    constexpr std::uint64_t nothing_more = 1;
+    const MemoryLimit limit(nothing_more);
+    double taken = most_bytes_of([&] {
+        EXPECT_THAT(
+            refusal([&] { cell_raster(scene); }),
+            HasSubstr(
+                "finding what is seen of " + std::to_string(scene.triangles.size())
+                + " triangles takes about "));
+    });
+    EXPECT_LT(taken, 1e6);
+    EXPECT_THAT(refusal([] { require_piece_memory(1e6); }), HasSubstr("about 1000000 pieces"));
+    EXPECT_THAT(
+        refusal([] { require_drawing_memory(1e6, DrawingStyle::flat); }),
+        HasSubstr("MiB of memory, and 1 MiB are available: a larger --deviation"));
+    taken = most_bytes_of([&] {
+        EXPECT_THAT(
+            refusal([&] {
+                ExpectPieces refuse = [](double) { throw std::runtime_error("too many"); };
+                const MemoryLimit large(std::uint64_t{1} << 60U);
+                cell_raster(scene, {}, nullptr, refuse);
+            }),
+            HasSubstr("too many"));
+    });
+    // What edges are compared with was there, and no pieces.
+    EXPECT_LT(taken, raster_bytes(counts_of(scene)) * 1.1);
+}
+
+TEST(DrawingMemory, FacetsAreRefusedBeforeThereAreTooMany) {
+    Scene scene;
+    Item item;
+    item.kind = ItemKind::sphere;
+    for (; item.index < 200; ++item.index) {
+        scene.geometry.spheres.push_back({{0, 0, 0}, 1.0 + item.index});
+        scene.geometry.items.push_back(item);
+    }
+    number_primitives(scene);
+    const MemoryLimit limit(1);
+    const double taken = most_bytes_of([&] {
+        EXPECT_THAT(
+            refusal([&] { facets(scene, [](Vec3) { return 0.01; }); }),
+            HasSubstr(" facets takes about "));
+    });
+    EXPECT_LT(taken, 1e7);
+}
+
+TEST(DrawingMemory, ShadowsAreRefusedBeforeTheyAreThrown) {
+    ScreenScene screen = testing::scattered(1, 1'000, screen_size / 50);
+    const ShadowMemory memory(screen);
+    {
+        const MemoryLimit limit(std::uint64_t{1} << 60U);
+        memory.require(1'000'000);
+    }
+    const MemoryLimit limit(1);
+    EXPECT_THAT(
+        refusal([&] { memory.require(1'000'000); }),
+        HasSubstr("drawing the 1000000 shadows of a light takes about "));
+    EXPECT_THAT(refusal([&] { memory.require(1'000'000); }), HasSubstr("--shadows off"));
+}
+
+TEST(DrawingMemory, WhereItRunsOutTheDrawingEndsAndLeavesNothing) {
+    const ThreadLimit one(1);
+    Camera camera;
+    const Scene scene = in_space(testing::tangle(1, 12, 4), camera);
+    for (const DrawingStyle style :
+         {DrawingStyle::shaded, DrawingStyle::hidden_lines, DrawingStyle::toon}) {
+        const auto draw = [&] {
+            DrawSettings settings;
+            settings.style = style;
+            PictureSettings picture;
+            picture.width = picture.height = 40;
+            const DrawnScene drawn = draw_scene(scene, camera, picture, settings);
+            std::string text;
+            write_svg(drawn.drawing, {}, text);
+        };
+        draw(); // what is made once in a process is made
+        const long before = blocks;
+        bool is_drawn = false;
+        long given = 0;
+        for (; !is_drawn; given += 1 + given / 40) {
+            times_left = given;
+            try {
+                draw();
+                is_drawn = true;
+            } catch (const std::bad_alloc&) { // NOLINT(bugprone-empty-catch)
+            }
+            times_left = no_end;
+            ASSERT_EQ(blocks, before) << "memory for " << given << " blocks";
+        }
+        EXPECT_GT(given, 100);
+    }
+}
+
+} // namespace
+} // namespace vera
