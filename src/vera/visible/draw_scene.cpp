@@ -118,8 +118,10 @@ struct Request {
     }
 
     /// Refuses a drawing that would not fit into memory.
-    ExpectPieces expect_pieces() const {
-        return [style = settings.style](double pieces) { require_drawing_memory(pieces, style); };
+    ExpectPieces expect_pieces(const ScreenScene& screen) const {
+        return [&screen, style = settings.style](double pieces) {
+            require_drawing_memory(pieces, screen.triangles.size(), style);
+        };
     }
 };
 
@@ -162,7 +164,7 @@ SeenScene seen_scene(Request& request) {
         request.next_stage(request.times.seeing),
         request.cancel,
         request.settings.engine,
-        request.expect_pieces());
+        request.expect_pieces(seen.screen));
     return seen;
 }
 
@@ -187,7 +189,7 @@ ShadowCounts see_shadows(Request& request, SeenScene& seen) {
         seen.screen,
         request.next_stage(request.times.seeing_shadows),
         request.cancel,
-        request.expect_pieces());
+        request.expect_pieces(seen.screen));
     return counts;
 }
 

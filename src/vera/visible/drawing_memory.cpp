@@ -30,8 +30,8 @@ ScreenCounts counts_of(const ScreenScene& scene) {
 }
 
 double raster_bytes(const ScreenCounts& counts) {
-    constexpr double per_surface = 480; // with 4 to 16 cells, of which shadows ask for none
-    constexpr double per_shadow = 250;
+    constexpr double per_surface = 260; // with 1 to 4 cells, of which shadows ask for none
+    constexpr double per_shadow = 170;
     constexpr double per_edge = 34;
     constexpr double per_vertex = 8;
     const std::size_t triangles = counts.surfaces + counts.shadows;
@@ -43,19 +43,20 @@ double raster_bytes(const ScreenCounts& counts) {
 }
 
 double piece_bytes(double pieces, double pairs) {
-    constexpr double per_piece = 260;
+    constexpr double per_piece = 130;
     constexpr double per_pair = 24;
     return per_piece * pieces + per_pair * pairs;
 }
 
-double drawing_bytes(double pieces, DrawingStyle style) {
+double drawing_bytes(double pieces, std::size_t surfaces, DrawingStyle style) {
     double per_piece = 0;
+    double per_surface = 0;
     switch (style) {
     case DrawingStyle::flat:
-        per_piece = 550;
+        per_piece = 600;
         break;
     case DrawingStyle::shaded:
-        per_piece = 1000;
+        per_piece = 800;
         break;
     case DrawingStyle::ids:
         per_piece = 350;
@@ -65,12 +66,13 @@ double drawing_bytes(double pieces, DrawingStyle style) {
         break;
     case DrawingStyle::hidden_lines:
         per_piece = 650;
+        per_surface = 400; // whose edges may be hidden lines
         break;
     case DrawingStyle::toon:
         per_piece = 850;
         break;
     }
-    return per_piece * pieces;
+    return per_piece * pieces + per_surface * static_cast<double>(surfaces);
 }
 
 void require_raster_memory(const ScreenScene& scene) {
@@ -89,9 +91,9 @@ void require_piece_memory(double pieces, double pairs) {
         remedy);
 }
 
-void require_drawing_memory(double pieces, DrawingStyle style) {
+void require_drawing_memory(double pieces, std::size_t surfaces, DrawingStyle style) {
     require_memory(
-        std::max(piece_bytes(pieces), drawing_bytes(pieces, style)),
+        std::max(piece_bytes(pieces), drawing_bytes(pieces, surfaces, style)),
         "the drawing would have about " + about(pieces) + " lines between what is seen, which",
         remedy);
 }

@@ -25,8 +25,9 @@ double raster_bytes(const ScreenCounts& counts);
 /// The pieces, and pairs of triangles that pass through each other, while cell_raster() finds them.
 double piece_bytes(double pieces, double pairs = 0);
 
-/// What is made of so many pieces, from the map to the text of the file, beside the pieces.
-double drawing_bytes(double pieces, DrawingStyle style);
+/// What is made of so many pieces of so many surfaces, from the map to the text of the file, beside
+/// the pieces.
+double drawing_bytes(double pieces, std::size_t surfaces, DrawingStyle style);
 
 /// Throws std::runtime_error where the memory that is available does not suffice for cell_raster()
 /// of the scene, whatever is seen of it.
@@ -36,7 +37,7 @@ void require_raster_memory(const ScreenScene& scene);
 void require_piece_memory(double pieces, double pairs = 0);
 
 /// The same of the whole drawing.
-void require_drawing_memory(double pieces, DrawingStyle style);
+void require_drawing_memory(double pieces, std::size_t surfaces, DrawingStyle style);
 
 /// Looks, while shadows are added to a scene, whether there will be memory to see them.
 class ShadowMemory {
