@@ -14,6 +14,7 @@ import re
 import statistics
 import sys
 
+from fits import part_of_bound
 from machine import RESULTS, ROOT, fail, machine
 from svg import BLUE, GOLD, GREEN, GREY, INK, SKY, bar_panel, curve_panel, frames, significant, titled
 
@@ -33,16 +34,17 @@ class Results:
 
     def __init__(self, name):
         self.machine = name
-        self.peers, self.rays, self.growth, self.billion, self.drawings, self.leaks, self.sizes = (
-            self.load(kind) for kind in ("peers", "rays", "growth", "billion", "drawings", "leaks", "sizes"))
+        (self.peers, self.rays, self.growth, self.billion, self.drawings, self.engines, self.faces, self.leaks,
+         self.sizes) = (self.load(kind) for kind in (
+             "peers", "rays", "growth", "billion", "drawings", "engines", "faces", "leaks", "sizes"))
 
     def load(self, kind):
         path = RESULTS / f"{kind}-{self.machine}.json"
         return json.loads(path.read_text()) if path.exists() else None
 
     def parts(self):
-        return [part for part in (self.peers, self.rays, self.growth, self.billion, self.drawings, self.leaks,
-                                  self.sizes) if part]
+        return [part for part in (self.peers, self.rays, self.growth, self.billion, self.drawings, self.engines,
+                                  self.faces, self.leaks, self.sizes) if part]
 
     def rays_on(self, threads):
         """The measurement with so many threads; None where there is none."""
@@ -285,6 +287,53 @@ def draw_drawing_costs(results):
     return drawing.as_text()
 
 
+ENGINES = {"cells": "cells", "sweep": "plane sweep"}
+ENGINE_COLOURS = {"cells": BLUE, "sweep": GOLD}
+ACROSS = {"triangles": "triangles, n", "crossings": "crossings of edges, k", "corners": "corners of what is seen, v"}
+QUANTITIES = {"seconds": "seconds", "steps": "counted steps"}
+MANY_COLOURS = (*FAMILY_COLOURS, "#c0392b", "#8e44ad", "#e67e22", "#16a085")
+
+
+def engine_fit(results, family, engine, quantity, across):
+    """The exponent and half its interval; None where nothing was fitted."""
+    return next((fit for fit in results["fits"] if (fit["family"], fit["engine"], fit["quantity"], fit["across"])
+                 == (family, engine, quantity, across)), None)
+
+
+def engine_curve(results, family, engine, quantity, across):
+    points = [(row[across], row["engines"][engine][quantity]) for row in results["rows"]
+              if row["family"] == family and row["engines"][engine] and row[across]]
+    fit = engine_fit(results, family, engine, quantity, across) or {"exponent": None, "half_interval": None}
+    return {"triangles": [x for x, _ in points], "values": [y for _, y in points],
+            "exponent": fit["exponent"], "half_interval": fit["half_interval"]}
+
+
+def draw_engines(results, quantity):
+    """A panel for each family, with both engines."""
+    families = families_of(results["rows"])
+    rows_of_panels = math.ceil(len(families) / 5)
+    drawing = titled(WIDTH, 84 + rows_of_panels * 240, f"Two engines, by family: {QUANTITIES[quantity]}",
+                     "fitted: n to the power of", [(name, ENGINE_COLOURS[key]) for key, name in ENGINES.items()])
+    for frame, family in zip(frames(5, len(families), WIDTH, 84, 170, gap=(48, 70)), families):
+        curves = [{"index": engine, **engine_curve(results, family, engine, quantity, "triangles")} for engine in ENGINES]
+        curve_panel(drawing, frame, family, [curve for curve in curves if curve["values"]], ENGINE_COLOURS)
+    return drawing.as_text()
+
+
+def draw_engine_costs(results):
+    """Each engine alone, a curve for each family: by triangles, by crossings and by what is seen."""
+    families = families_of(results["rows"])
+    colours = dict(zip(families, MANY_COLOURS))
+    panels = [(engine, quantity, across) for engine in ENGINES for quantity in QUANTITIES for across in ACROSS]
+    drawing = titled(WIDTH, 84 + 4 * 240, "What each engine takes, by what grows", "", list(colours.items()))
+    for frame, (engine, quantity, across) in zip(frames(3, len(panels), WIDTH, 84, 170, gap=(58, 70)), panels):
+        curves = [{"index": family, **engine_curve(results, family, engine, quantity, across), "exponent": None}
+                  for family in families]
+        curve_panel(drawing, frame, f"{ENGINES[engine]}: {QUANTITIES[quantity]}",
+                    [curve for curve in curves if curve["values"]], colours, ACROSS[across])
+    return drawing.as_text()
+
+
 def plots(results):
     """The text of every plot by its file's name."""
     drawn = {}
@@ -303,6 +352,10 @@ def plots(results):
     if results.drawings:
         drawn["bench-drawings"] = draw_drawings(results.drawings)
         drawn["bench-drawings-costs"] = draw_drawing_costs(results.drawings)
+    if results.engines:
+        drawn["bench-engines"] = draw_engines(results.engines, "seconds")
+        drawn["bench-engines-steps"] = draw_engines(results.engines, "steps")
+        drawn["bench-engines-costs"] = draw_engine_costs(results.engines)
     return {name: text for name, text in drawn.items() if text}
 
 
@@ -486,6 +539,47 @@ def drawing_exponents_table(results):
     return table(["n to the power of", *quantities.values()], rows) if rows else None
 
 
+def engines_table(results):
+    rows = []
+    for row in results.engines["rows"] if results.engines else []:
+        cells, sweep = (row["engines"][name] for name in ENGINES)
+        n, k = row["triangles"], row["crossings"]
+        rows.append([
+            row["family"], str(n), "" if k is None else str(k), str(row["corners"]),
+            cell(cells and cells["seconds"]), cell(sweep and sweep["seconds"]),
+            cell(cells and sweep and sweep["seconds"] / cells["seconds"], 2),
+            cell(cells and cells["steps"] / n), cell(sweep and sweep["steps"] / n),
+            cell(sweep and part_of_bound(sweep["steps"], n, k)), cell(sweep and sweep["moved"] / n)])
+    head = ["family", "n", "k", "v", "cells, seconds", "sweep", "ratio", "cells, steps by n", "sweep",
+            "by (n + k) log n", "moved, by n"]
+    return table(head, rows) if rows else None
+
+
+def engine_exponents_table(results):
+    rows = []
+    for family in families_of(results.engines["rows"]) if results.engines else []:
+        for engine, name in ENGINES.items():
+            found = [engine_fit(results.engines, family, engine, quantity, across)
+                     for quantity in QUANTITIES for across in ACROSS]
+            rows.append([f"{family}, {name}", *(
+                f"{fit['exponent']:.2f} ± {fit['half_interval']:.2f}" if fit else "" for fit in found)])
+    head = ["power of", *(f"{quantity} by {letter}" for quantity in ("seconds", "steps") for letter in "nkv")]
+    return table(head, rows) if rows else None
+
+
+def faces_table(results):
+    rows = []
+    for row in results.faces["rows"] if results.faces else []:
+        files = [text for each in row["files"].values() for text in
+                 (str(each["differing"]), str(each["far"]), f"{each['farthest']:.4f}")]
+        rows.append([row["scene"], str(row["triangles"]), *(str(count) for count in (
+            row["map"]["wrong"], row["map"]["coincident"], row["map"]["close"], row["uncut"]["wrong"],
+            row["holes"] + row["unsound"])), f"{row['area_error']:.0e}", *files])
+    head = ["scene", "facets", "wrong", "coincident", "close", "uncut", "holes", "area", "SVG: differing", "far", "farthest",
+            "PDF: differing", "far", "farthest"]
+    return table(head, rows) if rows else None
+
+
 def leaks_table(results):
     rows = []
     found = results.leaks["rows"] if results.leaks else []
@@ -504,6 +598,7 @@ def sizes_table(results):
 
 
 TABLES = {"drawings": drawings_table, "drawn lines": drawn_lines_table, "drawing exponents": drawing_exponents_table,
+          "engines": engines_table, "engine exponents": engine_exponents_table, "faces": faces_table,
           "leaks": leaks_table, "sizes": sizes_table, "machine": machine_table, "means": means_table, "rates": rates_table, "one ray": one_ray_table,
           "builds": builds_table, "exponents": exponents_table, "peers": peers_table, "tachyon": tachyon_table,
           "billion": billion_table}

@@ -154,8 +154,8 @@ def power_of_ten(drawing, x, y, power, anchor):
 
 
 def curve_panel(drawing, frame, title, curves, colours, axis="triangles"):
-    """Curves on logarithmic axes: each a dictionary of index, triangles, values and exponent, or None for none; a
-    colour for each index. The axis is what goes to the right."""
+    """Curves on logarithmic axes: each a dictionary of index, triangles, values and exponent, or None for none, and perhaps
+    of half of its interval; a colour for each index. The axis is what goes to the right."""
     first, last = decades([x for curve in curves for x in curve["triangles"]])
     lowest, highest = decades([y for curve in curves for y in curve["values"]])
     last, highest = max(last, first + 1), max(highest, lowest + 1)
@@ -179,6 +179,7 @@ def curve_panel(drawing, frame, title, curves, colours, axis="triangles"):
         colour = colours[curve["index"]]
         drawing.curve([place(x, y) for x, y in zip(curve["triangles"], curve["values"])], colour)
         if curve["exponent"] is not None:
+            interval = f" ± {curve['half_interval']:.2f}" if curve.get("half_interval") is not None else ""
             drawing.text(frame.left + 8, frame.top + 14 + 14 * i, "n", 11, "start", colour, "bold",
-                         above=f"{curve['exponent']:.2f}")
+                         above=f"{curve['exponent']:.2f}{interval}")
     drawing.line(frame.left, frame.bottom, frame.right, frame.bottom, FAINT)

@@ -9,6 +9,8 @@ bench_usage() {
 ./dev bench growth ...   how times and counted steps grow with the number of triangles
 ./dev bench billion ...  a scene of a billion triangles in less than a gigabyte
 ./dev bench drawings ... drawings, against CGAL, three.js, sketch and OpenCASCADE
+./dev bench engines ...  how the two engines grow that find what is seen
+./dev bench faces ...    whether any face is wrong, in the map and in files, at a million points a scene
 ./dev bench leaks ...    whether the background shines through drawings, in five programs
 ./dev bench sizes ...    how large drawings are beside what they need
 ./dev bench plots ...    plots and tables of docs/performance.md from the results
@@ -56,6 +58,17 @@ bench_drawings() {
     step "compare drawings" bench/drawings/compare "$@"
 }
 
+bench_engines() {
+    build_benchmark engines_bench
+    step "measure the engines" bench/drawings/engines "$@"
+}
+
+bench_faces() {
+    # shellcheck disable=SC2046 # one option or none
+    step "build" build release $(without_tests) -DVERA_BUILD_BENCHMARKS=ON -- vera faces_check
+    step "check faces" bench/drawings/faces "$@"
+}
+
 bench_leaks() {
     step "install viewers" install_packages drawings
     # shellcheck disable=SC2046 # one option or none
@@ -76,7 +89,7 @@ bench_plots() {
 bench() {
     case ${1:-} in
     --help | -h) bench_usage ;;
-    peers | rays | growth | billion | drawings | leaks | sizes | plots)
+    peers | rays | growth | billion | drawings | engines | faces | leaks | sizes | plots)
         step "install packages" install_packages build bench
         "bench_$1" "${@:2}"
         ;;
@@ -87,6 +100,8 @@ bench() {
         bench_growth
         bench_billion
         bench_drawings
+        bench_engines
+        bench_faces
         bench_leaks
         bench_sizes
         bench_plots

@@ -106,8 +106,68 @@ def tilted(count):
                                   z + size * values.uniform(-1, 1)) for _ in range(3)))
 
 
+def cycles(count):
+    """Rings of three slivers of which each lies over the next, so that none of them can be painted first, at random places
+    in layers."""
+    values = random.Random(f"cycles {count}")
+    for ring in range(count // 3):
+        x, y, turn = values.random(), values.random(), values.random() * math.tau
+        size = math.sqrt(3 / count)
+        for i in range(3):
+            along = turn + i * math.tau / 3
+            u, v = math.cos(along), math.sin(along)
+            # Past the middle at a distance, from low to high.
+            near, far, wide = (-1.0, 0.25, -0.2), (1.0, 0.25, 0.8), 0.12
+            corners = [(near[0], near[1] - wide, near[2]), (far[0], far[1] - wide, far[2]), (far[0], far[1] + wide, far[2])]
+            yield turned_to_viewer(*((x + size * (u * a - v * b), y + size * (v * a + u * b), ring + 0.5 + 0.4 * c)
+                                     for a, b, c in corners))
+
+
+def deep(count):
+    """Triangles of one size, however many there are, each in a layer of its own: ever more lie one behind the other, and
+    their square crosses. What is seen is soon that of the nearest few."""
+    values = random.Random(f"deep {count}")
+    layers = list(range(count))
+    values.shuffle(layers)
+    for layer in layers:
+        x, y = values.random(), values.random()
+        yield turned_to_viewer(*((x + values.uniform(-0.1, 0.1), y + values.uniform(-0.1, 0.1),
+                                  layer + 0.9 * values.random()) for _ in range(3)))
+
+
+def stripes(count):
+    """Slivers side by side from one side of the picture to the other, at a slant, none of which crosses another: each lies
+    in as many cells as the picture is wide."""
+    for i in range(count):
+        middle, half = 0.02 + 0.6 * (i + 0.5) / count, 0.12 / count
+        yield (0.02, middle + half, i % 7), (0.02, middle - half, i % 7), (0.98, middle + 0.35, i % 7)
+
+
+def cluster(count):
+    """The same as scatter in a thousandth of the picture's width, in one corner of a large empty triangle: cells of one
+    size hold all of it in a few."""
+    yield (0.0, 0.0, -1.0), (1.0, 0.0, -1.0), (0.0, 1.0, -1.0)
+    for triangle in scatter(count - 1):
+        yield tuple((0.3 + 0.001 * x, 0.3 + 0.001 * y, z) for x, y, z in triangle)
+
+
+def sizes(count):
+    """As scatter, but of very different sizes: how many are larger than a size falls with its square, from as large as the
+    picture down to a thousandth of it."""
+    values = random.Random(f"sizes {count}")
+    layers = list(range(count))
+    values.shuffle(layers)
+    least = max(0.001, 1 / math.sqrt(count))
+    for layer in layers:
+        size = least / math.sqrt(1 - values.random() * (1 - least**2))
+        x, y = values.random(), values.random()
+        yield turned_to_viewer(*((x + size * values.uniform(-0.5, 0.5), y + size * values.uniform(-0.5, 0.5),
+                                  layer + 0.9 * values.random()) for _ in range(3)))
+
+
 FAMILIES = {"scatter": scatter, "balls": balls, "terrain": terrain, "grate": grate,
-            "hidden grate": hidden_grate, "tilted": tilted}
+            "hidden grate": hidden_grate, "tilted": tilted, "deep": deep, "stripes": stripes, "cluster": cluster,
+            "sizes": sizes, "cycles": cycles}
 
 
 def write_mesh(triangles, path):

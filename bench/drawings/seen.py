@@ -8,6 +8,7 @@ triangle, from 1 on; 0 is the background.
 import math
 import random
 import re
+import zlib
 
 
 class Points:
@@ -156,6 +157,37 @@ def areas_of_svg(path, left=0.0, top=0.0, pixels=1000.0):
             rings = [[((x - left) / pixels, 1 - (y - top) / pixels) for x, y in ring]
                      for ring in rings_of(data[1])]
             yield number_of(fill[1] or fill[2]), rings
+
+
+PDF_STREAM = re.compile(rb"stream\r?\n")
+
+
+def areas_of_pdf(path, pixels):
+    """The filled areas of the first page of a PDF that VERA wrote, whose background, the first rectangle, is so many pixels
+    wide; x and y in pixels from the upper left."""
+    data = path.read_bytes()
+    content = zlib.decompressobj().decompress(data[PDF_STREAM.search(data).end():]).decode("ascii")
+    numbers, colour, rings, scale = [], 0, [], None
+    for word in content.split():
+        if word == "re":
+            scale = scale or pixels / numbers[2]
+        elif word == "rg":
+            r, g, b = (round(255 * value) for value in numbers)
+            colour = r * 65536 + g * 256 + b
+        elif word in ("m", "l"):
+            if word == "m":
+                rings.append([])
+            rings[-1].append((numbers[0] * scale, numbers[1] * scale))
+        elif word in ("f", "f*"):
+            if rings:
+                yield colour, rings
+            rings = []
+        elif word in ("c", "v", "y", "S", "B"):
+            raise ValueError(f"{path}: an area of style ids has no '{word}'")
+        try:
+            numbers.append(float(word))
+        except ValueError:
+            numbers = []
 
 
 SKETCH_FILL = re.compile(r"\\filldraw\[fill=c(\d+)[^\]]*\](\(.*?)--cycle")
