@@ -581,7 +581,7 @@ Raster raster_of(const ScreenScene& scene, const CancelFlag* cancel) {
         raster.is_inner[i] = is_inner(scene, neighbours[i]) ? 1 : 0;
     raster.cells = cells_of(scene, raster.planes, raster.slopes, cancel);
     block_by_sheets(raster.cells, {scene, raster.edges, neighbours, raster.planes, raster.slopes});
-    raster.shadow_cells = taken_shadows(raster.cells, scene);
+    raster.shadow_cells = shadow_cells_of(raster.cells, scene, raster.slopes, cancel);
     const std::vector<double> nearness = nearness_of_edges(raster);
     raster.is_hidden.resize(raster.edges.edges.size());
     parallel_ranges(raster.is_hidden.size(), 4096, [&](std::size_t first, std::size_t last) {

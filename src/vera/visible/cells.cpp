@@ -70,6 +70,8 @@ void for_each_entry(
     for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
         if (cancel != nullptr && i % 256 == 0)
             cancel->throw_if_raised();
+        if (scene.triangles[i].is_shadow())
+            continue;
         const auto corners = corners_of(scene, scene.triangles[i]);
         const double near = nearest_for_hiding(
             slopes[i], std::array{corners[0].point, corners[1].point, corners[2].point});
