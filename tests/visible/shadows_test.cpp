@@ -2,6 +2,7 @@
 #include "vera/accel/brute_force.h"
 #include "vera/exact/front_order.h"
 #include "vera/scene/surface.h"
+#include "vera/visible/closed_bodies.h"
 #include "vera/visible/penetrations.h"
 #include "vera/visible/shadows.h"
 #include "vera/visible/visible_map.h"
@@ -121,9 +122,7 @@ std::optional<LitAt> lit_around(
 
 /// Compares shadows with rays at places that have the same around them, to both sides, for `off` of
 /// the picture.
-int compare_shadows(std::uint64_t seed, double off) {
-    const Scene scene = scene_of_planes(seed);
-    const Camera camera = testing::camera_number(static_cast<int>(seed));
+int compare_shadows(const Scene& scene, const Camera& camera, std::uint64_t seed, double off) {
     const DrawnShadows drawn = drawn_shadows(scene, camera);
     const bool is_cut = drawn.screen.cut_nearness > 0 || drawn.counts.cut_nearness > 0;
     const auto index = make_brute_force(scene);
@@ -153,8 +152,146 @@ int compare_shadows(std::uint64_t seed, double off) {
 TEST(Shadows, AreWhereRaysTowardsLightsMeetSomething) {
     int compared = 0;
     for (std::uint64_t seed = 0; seed < 12 && !HasFailure(); ++seed)
-        compared += compare_shadows(seed, 1e-5);
+        compared += compare_shadows(
+            scene_of_planes(seed), testing::camera_number(static_cast<int>(seed)), seed, 1e-5);
     EXPECT_GT(compared, 400);
+}
+
+/// The area of the picture, as a part of it, where the light does not reach the face.
+double unlit_area(const DrawnShadows& drawn, std::uint32_t face, std::uint32_t light) {
+    double area = 0;
+    for (const VisibleMap::Ring& ring : drawn.map.rings)
+        if (ring.source == face && (drawn.map.regions[ring.region].unlit >> light & 1U) != 0)
+            area += 0.5 * doubled_area(drawn.map, ring);
+    return area / std::ldexp(1.0, 2 * screen_bits);
+}
+
+Mesh box_mesh(Vec3 corner, Vec3 size) {
+    Mesh mesh;
+    for (unsigned i = 0; i < 8; ++i)
+        mesh.positions.push_back(
+            corner + Vec3{(i & 1U) * size.x, (i >> 1U & 1U) * size.y, (i >> 2U) * size.z});
+    mesh.position_indices = {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
+                             2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5};
+    return mesh;
+}
+
+void add_mesh(Scene& scene, Mesh mesh) {
+    Item item;
+    item.kind = ItemKind::mesh;
+    item.index = static_cast<std::uint32_t>(scene.geometry.meshes.size());
+    item.material = MaterialId{0};
+    scene.geometry.meshes.push_back(std::move(mesh));
+    scene.geometry.items.push_back(item);
+    number_primitives(scene);
+}
+
+/// Tetrahedra and boxes that touch each other and pass through each other and through faces, some
+/// turned inside out; lights and viewers are outside most of them.
+Scene scene_of_bodies(std::uint64_t seed) {
+    Scene scene = scene_of_planes(seed);
+    std::mt19937_64 random(seed);
+    const auto some = [&] { return 0.5 * static_cast<double>(random() % 9) - 2; };
+    for (int i = 0; i < 5; ++i) {
+        std::array<Vec3, 4> points;
+        for (Vec3& point : points)
+            point = {some(), some(), some()};
+        if (i % 2 == 0) {
+            Mesh mesh;
+            mesh.positions.assign(points.begin(), points.end());
+            mesh.position_indices = {0, 1, 2, 0, 2, 3, 0, 3, 1, 1, 3, 2};
+            add_mesh(scene, std::move(mesh));
+        } else {
+            const Vec3 size = max(points[1], -points[1]) + Vec3{0.5, 0.5, 0.5};
+            add_mesh(scene, box_mesh(points[0], size));
+        }
+    }
+    return scene;
+}
+
+TEST(Shadows, OfClosedBodiesAreWhereRaysTowardsLightsMeetSomething) {
+    int compared = 0;
+    std::size_t bodies = 0;
+    for (std::uint64_t seed = 0; seed < 8 && !HasFailure(); ++seed) {
+        const Scene scene = scene_of_bodies(seed);
+        bodies += closed_bodies(facets(scene, [](Vec3) { return 1.0; })).boxes.size();
+        compared +=
+            compare_shadows(scene, testing::camera_number(static_cast<int>(seed)), seed, 1e-5);
+    }
+    EXPECT_GT(bodies, 30U);
+    EXPECT_GT(compared, 300);
+}
+
+TEST(Shadows, AreEverywhereWithinAClosedBody) {
+    for (const bool is_inside_out : {false, true}) {
+        Scene scene;
+        scene.materials.emplace_back();
+        Mesh mesh = box_mesh({-9, -8, -7}, {19, 17, 15});
+        for (std::size_t i = 0; i < mesh.position_indices.size() && is_inside_out; i += 3)
+            std::swap(mesh.position_indices[i], mesh.position_indices[i + 1]);
+        add_mesh(scene, std::move(mesh));
+        scene.lights = {{.position = {20.3, 31.7, 10.9}}};
+        for (int i = 0; i < 3; ++i)
+            EXPECT_GT(compare_shadows(scene, testing::camera_number(i), 0, 1e-5), 150);
+    }
+}
+
+/// Slabs made of small tiles over a floor to the horizon, and a sun
+/// so far away that its view has steps larger than the tiles.
+Scene tiles_over_far_floor(std::uint64_t seed) {
+    std::mt19937_64 random(seed);
+    Scene scene;
+    scene.materials.emplace_back();
+    const auto add = [&](Vec3 a, Vec3 b, Vec3 c) {
+        Item item;
+        item.kind = ItemKind::triangle;
+        item.index = static_cast<std::uint32_t>(scene.geometry.triangles.size());
+        item.material = MaterialId{0};
+        scene.geometry.triangles.push_back({{a, b, c}});
+        scene.geometry.items.push_back(item);
+    };
+    constexpr double far = 2e5;
+    add({-far, 0, -far}, {-far, 0, far}, {far, 0, far});
+    add({-far, 0, -far}, {far, 0, far}, {far, 0, -far});
+    for (int slab = 0; slab < 2; ++slab) {
+        constexpr int tiles = 24;
+        constexpr double size = 0.1;
+        const auto some = [&](unsigned values) { return static_cast<double>(random() % values); };
+        const Vec3 corner = {some(4) - 3, 0.5 + some(3) / 2, some(4) - 3};
+        for (int i = 0; i < tiles; ++i)
+            for (int j = 0; j < tiles; ++j) {
+                const auto at = [&](int x, int z) {
+                    return corner + Vec3{size * (i + x), 0, size * (j + z)};
+                };
+                add(at(0, 0), at(0, 1), at(1, 1));
+                add(at(0, 0), at(1, 1), at(1, 0));
+            }
+    }
+    number_primitives(scene);
+    scene.lights = {{.position = {3e6, 4e6, 1e6}}, {.position = {-1.1e7, 2.3e7, 0.7e7}}};
+    return scene;
+}
+
+Camera over_far_floor() {
+    Camera camera;
+    camera.viewpoint = {0, 4, 12};
+    camera.lower_left = {-3, 1.5, 8};
+    camera.lower_right = {3, 1.5, 8};
+    camera.upper_left = {-3, 5, 8};
+    return camera;
+}
+
+TEST(Shadows, OfSmallThingsAreWholeOnAFloorToTheHorizon) {
+    const Camera camera = over_far_floor();
+    int compared = 0;
+    for (std::uint64_t seed = 0; seed < 3 && !HasFailure(); ++seed) {
+        const Scene scene = tiles_over_far_floor(seed);
+        compared += compare_shadows(scene, camera, seed, 1e-5);
+        const DrawnShadows drawn = drawn_shadows(scene, camera);
+        EXPECT_EQ(drawn.counts.light_step, 0);
+        EXPECT_GT(unlit_area(drawn, 0, 0) + unlit_area(drawn, 1, 0), 0.001);
+    }
+    EXPECT_GT(compared, 300);
 }
 
 /// Calls visit(corners) for trapezoids that together are the region, cut at each of its corners.
@@ -305,15 +442,6 @@ private:
     Facets all_;
     std::vector<std::uint32_t> sources_;
 };
-
-/// The area of the picture, as a part of it, where the light does not reach the face.
-double unlit_area(const DrawnShadows& drawn, std::uint32_t face, std::uint32_t light) {
-    double area = 0;
-    for (const VisibleMap::Ring& ring : drawn.map.rings)
-        if (ring.source == face && (drawn.map.regions[ring.region].unlit >> light & 1U) != 0)
-            area += 0.5 * doubled_area(drawn.map, ring);
-    return area / std::ldexp(1.0, 2 * screen_bits);
-}
 
 /// A floor seen from above by parallel rays, from -4 to 4, and a square over it.
 Scene square_over_floor(double half, double height) {

@@ -156,7 +156,7 @@ CellRaster raster_of(
     raster.cells = cells_of(scene, raster.slopes, cancel, asked);
     next_stage();
     block_by_sheets(raster.cells, {scene, raster.edges, neighbours, raster.slopes}, cancel);
-    raster.shadow_cells = taken_shadows(raster.cells, scene);
+    raster.shadow_cells = shadow_cells_of(raster.cells, scene, raster.slopes, cancel);
     next_stage();
     const std::vector<double> nearness = nearness_of_edges(raster);
     raster.is_hidden.resize(raster.edges.edges.size());

@@ -64,7 +64,8 @@ private:
     };
 
     /// Calls visit(triangle, row, RowOfCells) for the rows that triangles touch, of those of which
-    /// does_matter(corners) is true: triangle by triangle within a row, in several rows at once.
+    /// does_matter(triangle, corners) is true: triangle by triangle within a row, in several rows
+    /// at once.
     template <typename DoesMatter, typename Visit>
     void for_each_row(const Cells& cells, const DoesMatter& does_matter, const Visit& visit) const;
 
@@ -128,7 +129,7 @@ void CellLists::for_each_row(
             for (std::size_t i = in * group; i < std::min((in + 1) * group, nearness_.size());
                  ++i) {
                 const auto corners = corners_of(scene_, scene_.triangles[i]);
-                if (!does_matter(corners))
+                if (!does_matter(scene_.triangles[i], corners))
                     continue;
                 RowsOfCells rows(cells, corners, first, last);
                 for (std::int32_t row = rows.first(); row <= rows.last(); ++row)
@@ -142,7 +143,7 @@ template <typename Visit>
 void CellLists::for_each_entry(const Cells& cells, const Visit& visit) const {
     for_each_row(
         cells,
-        [](const auto&) { return true; },
+        [](const ScreenTriangle& triangle, const auto&) { return !triangle.is_shadow(); },
         [&](std::uint32_t i, std::int32_t row, const RowOfCells& found) {
             for (std::int32_t j = found.touched.first; j <= found.touched.last; ++j)
                 if (const std::size_t cell = cells.number(j, row);
@@ -155,10 +156,10 @@ void CellLists::for_each_entry(const Cells& cells, const Visit& visit) const {
 void CellLists::block(Cells& cells) const {
     for_each_row(
         cells,
-        [&](const auto& corners) { return may_cover_a_cell(corners, cells); },
+        [&](const ScreenTriangle& triangle, const auto& corners) {
+            return !triangle.is_shadow() && may_cover_a_cell(corners, cells);
+        },
         [&](std::uint32_t i, std::int32_t row, const RowOfCells& found) {
-            if (scene_.triangles[i].is_shadow())
-                return;
             for (std::int32_t j = found.covered.first; j <= found.covered.last; ++j) {
                 const std::size_t cell = cells.number(j, row);
                 if (!is_asked(cell))

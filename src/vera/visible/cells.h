@@ -14,8 +14,8 @@
 
 namespace vera {
 
-/// The picture cut into square cells, each with the triangles that touch it (Franklin 1980). What
-/// lies behind a triangle that covers a cell is left out there.
+/// The picture cut into square cells, each with the surfaces that touch it (Franklin 1980). What
+/// lies behind a triangle that covers a cell is left out there. Shadows are not in them.
 struct Cells {
     int shift = screen_bits; ///< a cell is 2^shift steps wide and high
     std::int32_t per_side = 1;

@@ -284,11 +284,11 @@ bool EdgeSweep::ends_a_shadow_somewhere() {
             surfaces += more;
             return;
         }
-        auto& [left, right] = covering[triangle.light];
-        const auto is_parted = [&] { return (left > 0) != (right > 0) ? 1 : 0; };
+        std::array<std::int32_t, 2>& sides = covering[triangle.light];
+        const auto is_parted = [&] { return (sides[0] > 0) != (sides[1] > 0) ? 1 : 0; };
         parted -= is_parted();
-        left += (cover.sides & left_side) != 0 ? more : 0;
-        right += (cover.sides & right_side) != 0 ? more : 0;
+        sides[0] += (cover.sides & left_side) != 0 ? more : 0;
+        sides[1] += (cover.sides & right_side) != 0 ? more : 0;
         parted += is_parted();
     };
     for (std::size_t i = 0; i < events_.size();) {

@@ -20,45 +20,6 @@ namespace vera {
 
 namespace {
 
-/// A square view from the origin, with that half side at distance 1.
-Camera square_view(Vec3 forward, double half_side) {
-    const Vec3 away = std::abs(forward.z) < 0.75 ? Vec3{0, 0, 1} : Vec3{0, 1, 0};
-    const Vec3 across = half_side * normalized(cross(forward, away));
-    const Vec3 up = half_side * normalized(cross(across, forward));
-    Camera camera;
-    camera.lower_left = forward - across - up;
-    camera.lower_right = forward + across - up;
-    camera.upper_left = forward - across + up;
-    return camera;
-}
-
-/// From the origin, of the box.
-std::vector<Camera> cameras_of(const Box3& box) {
-    const Vec3 to_middle = center(box);
-    const double distance = length(to_middle);
-    if (distance > 0) {
-        const Vec3 forward = to_middle / distance;
-        // Of the widest angle to the middle, which a cube's side is not to exceed by much.
-        double tangent = 0;
-        for (unsigned i = 0; i < 8; ++i) {
-            const Vec3 to = corner(box, i);
-            const double along = dot(to, forward);
-            tangent = along > 0 ? std::max(tangent, length(cross(to, forward)) / along) : 2;
-        }
-        // Not so narrow that the corners of the view are one for rounding.
-        if (tangent < 1.2)
-            return {square_view(forward, std::max(1.001 * tangent, 1e-9))};
-    }
-    std::vector<Camera> cameras;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        for (const double side : {-1.0, 1.0}) {
-            Vec3 forward;
-            forward[axis] = side;
-            cameras.push_back(square_view(forward, 1));
-        }
-    return cameras;
-}
-
 bool is_within_source(const ScreenScene& view, const EdgeNeighbours& beside) {
     return beside.are_two()
         && view.triangles[beside.left].source == view.triangles[beside.right].source;
@@ -117,8 +78,10 @@ void LitFacets::add(const ScreenScene& view, const Progress& progress, const Can
 LightViews light_views(
     const Scene& scene,
     const Facets& facets,
+    std::span<const std::uint32_t> looked_at,
     Vec3 position,
     const Box3& box,
+    std::span<const SeenSegment> seen,
     const Progress& progress,
     const CancelFlag* cancel) {
     LightViews result = {LitFacets(scene, facets), {}, 0, 0};
@@ -126,23 +89,16 @@ LightViews light_views(
     Facets moved = facets;
     for (Vec3& corner : moved.corners)
         corner = corner - position;
-    std::vector<std::uint32_t> numbers(facets.triangles.size());
-    std::iota(numbers.begin(), numbers.end(), 0U);
-    const Box3 moved_box = {box.lower - position, box.upper - position};
-    const std::vector<Camera> cameras = cameras_of(moved_box);
-    for (std::size_t i = 0; i < cameras.size(); ++i) {
-        LightView view;
+    moved.triangles.clear();
+    for (const std::uint32_t facet : looked_at)
+        moved.triangles.push_back(facets.triangles[facet]);
+    const std::vector<LightFrame> frames = light_frames(position, box, seen);
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        result.coarse_step = std::max(result.coarse_step, frames[i].coarse_step);
         // What is behind all that is seen throws no shadow on it, and would take from the depths.
-        const CameraMap map(cameras[i]);
-        double farthest = 0;
-        for (unsigned j = 0; j < 8; ++j)
-            farthest = std::max(farthest, map.image_point(corner(moved_box, j)).w);
-        if (!(farthest > 0))
-            continue;
-        result.step = std::max(
-            result.step,
-            farthest * length(cameras[i].lower_right - cameras[i].lower_left) / screen_size);
-        view.screen = screen_scene(moved, map, numbers, 1.001 * farthest, cancel);
+        LightView view;
+        view.screen = screen_scene(
+            moved, CameraMap(frames[i].camera), looked_at, 1.001 * frames[i].farthest, cancel);
         if (view.screen.triangles.empty())
             continue;
         result.cut_nearness = std::max(result.cut_nearness, view.screen.cut_nearness);
@@ -157,7 +113,7 @@ LightViews light_views(
         if (view.transparent.triangles.empty())
             view.transparent.vertices = {};
         sort_by_place(view.screen, cancel);
-        result.lit.add(view.screen, progress_part(progress, i, cameras.size()), cancel);
+        result.lit.add(view.screen, progress_part(progress, i, frames.size()), cancel);
         view.cells = cells_of(view.screen, cancel);
         result.views.push_back(std::move(view));
     }

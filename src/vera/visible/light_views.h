@@ -7,10 +7,12 @@
 #include "vera/scene/facets.h"
 #include "vera/scene/scene.h"
 #include "vera/visible/cells.h"
+#include "vera/visible/light_frames.h"
 #include "vera/visible/screen_scene.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace vera {
@@ -52,17 +54,19 @@ struct LightView {
 struct LightViews {
     LitFacets lit;
     std::vector<LightView> views; ///< together of everything in the box
-    double step = 0;         ///< of their grids, in the scene's units, where the box is farthest
-    double cut_nearness = 0; ///< what is so near, in the scene's units, they do not show; or 0
+    double coarse_step = 0;       ///< the largest of those of the frames
+    double cut_nearness = 0;      ///< what is so near, in the scene's units, they do not show; or 0
 };
 
-/// Of what lies between the light and the box: in one view where the box lies before the light,
-/// else on the six sides of a cube about it.
+/// Of those facets that are looked at, by their numbers, and lie between the light and the box, in
+/// the frames that light_frames() tells.
 LightViews light_views(
     const Scene& scene,
     const Facets& facets,
+    std::span<const std::uint32_t> looked_at,
     Vec3 position,
     const Box3& box,
+    std::span<const SeenSegment> seen,
     const Progress& progress = {},
     const CancelFlag* cancel = nullptr);
 

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/shadow_cells.h"
 
+#include "vera/base/long_loop.h"
+
 #include <algorithm>
+#include <array>
+#include <numeric>
 
 namespace vera {
 
@@ -17,34 +21,39 @@ ShadowCells::shadows_on(std::size_t cell, std::uint32_t source, const ScreenScen
     return {first, last};
 }
 
-ShadowCells taken_shadows(Cells& cells, const ScreenScene& scene) {
-    ShadowCells shadows;
-    if (std::none_of(scene.triangles.begin(), scene.triangles.end(), [](const ScreenTriangle& i) {
-            return i.is_shadow();
-        }))
-        return shadows;
-    shadows.starts.reserve(cells.starts.size());
-    shadows.starts.push_back(0);
-    std::uint32_t kept = 0;
-    for (std::size_t cell = 0; cell + 1 < cells.starts.size(); ++cell) {
-        const std::uint32_t first = cells.starts[cell];
-        const std::uint32_t last = cells.starts[cell + 1];
-        cells.starts[cell] = kept;
-        for (std::uint32_t i = first; i < last; ++i) {
-            const std::uint32_t triangle = cells.triangles[i];
-            if (scene.triangles[triangle].is_shadow())
-                shadows.triangles.push_back(triangle);
-            else
-                cells.triangles[kept++] = triangle;
+ShadowCells shadow_cells_of(
+    const Cells& cells,
+    const ScreenScene& scene,
+    std::span<const NearnessSlope> slopes,
+    const CancelFlag* cancel) {
+    std::vector<std::uint32_t> by_source;
+    for (std::uint32_t i = 0; i < scene.triangles.size(); ++i)
+        if (scene.triangles[i].is_shadow())
+            by_source.push_back(i);
+    std::stable_sort(by_source.begin(), by_source.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return scene.triangles[a].source < scene.triangles[b].source;
+    });
+    const auto for_each_entry = [&](const auto& visit) {
+        for (const std::uint32_t i : by_source) {
+            stop_if_raised(cancel);
+            const auto corners = corners_of(scene, scene.triangles[i]);
+            const double near = nearest_for_hiding(
+                slopes[i], std::array{corners[0].point, corners[1].point, corners[2].point});
+            for_each_cell_of(cells, corners, [&](std::size_t cell) {
+                if (near >= cells.blocked[cell])
+                    visit(cell, i);
+            });
         }
-        const auto begin = shadows.triangles.begin() + shadows.starts.back();
-        std::stable_sort(begin, shadows.triangles.end(), [&](std::uint32_t a, std::uint32_t b) {
-            return scene.triangles[a].source < scene.triangles[b].source;
-        });
-        shadows.starts.push_back(static_cast<std::uint32_t>(shadows.triangles.size()));
-    }
-    cells.starts.back() = kept;
-    cells.triangles.resize(kept);
+    };
+    ShadowCells shadows;
+    if (by_source.empty())
+        return shadows;
+    shadows.starts.resize(cells.starts.size());
+    for_each_entry([&](std::size_t cell, std::uint32_t) { ++shadows.starts[cell + 1]; });
+    std::partial_sum(shadows.starts.begin(), shadows.starts.end(), shadows.starts.begin());
+    shadows.triangles.resize(shadows.starts.back());
+    std::vector<std::uint32_t> next(shadows.starts.begin(), shadows.starts.end() - 1);
+    for_each_entry([&](std::size_t cell, std::uint32_t i) { shadows.triangles[next[cell]++] = i; });
     return shadows;
 }
 

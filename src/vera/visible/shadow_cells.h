@@ -26,7 +26,11 @@ struct ShadowCells {
     shadows_on(std::size_t cell, std::uint32_t source, const ScreenScene& scene) const;
 };
 
-/// Takes the shadows out of the cells.
-ShadowCells taken_shadows(Cells& cells, const ScreenScene& scene);
+/// In those cells, but where they are hidden. slopes[i] is that of triangle i.
+ShadowCells shadow_cells_of(
+    const Cells& cells,
+    const ScreenScene& scene,
+    std::span<const NearnessSlope> slopes,
+    const CancelFlag* cancel = nullptr);
 
 } // namespace vera

@@ -6,6 +6,7 @@
 #include "vera/math/box3.h"
 #include "vera/visible/cell_raster.h"
 #include "vera/visible/cells.h"
+#include "vera/visible/closed_bodies.h"
 #include "vera/visible/cut_polygon.h"
 #include "vera/visible/drawing_memory.h"
 #include "vera/visible/light_views.h"
@@ -99,46 +100,52 @@ double viewer_height(const Camera& camera, const FacePlane& plane) {
                                                              : plane.height(camera.viewpoint);
 }
 
-/// A box of all that is seen: of the ends of its borders, each on the planes beside it.
-/// Tells also the size of the smallest pixel there.
-Box3 seen_box(
-    const ShadowedScene& shadowed,
-    const ScreenScene& screen,
-    const CancelFlag* cancel,
-    double& pixel) {
+/// What is seen: the borders of it, each on the planes beside it, and a box of them.
+struct SeenPlaces {
+    std::vector<SeenSegment> segments;
+    Box3 box;
+};
+
+SeenPlaces
+seen_places(const ShadowedScene& shadowed, const ScreenScene& screen, const CancelFlag* cancel) {
     Box3 all;
     for (const Vec3& corner : shadowed.facets.corners)
         all = grown(all, corner);
-    Box3 seen;
+    SeenPlaces seen;
     const LongLoop loop(shadowed.seen.pieces.size(), {}, cancel);
-    for (std::size_t i = 0; i < shadowed.seen.pieces.size(); ++i) {
-        loop.turn(i);
-        const VisiblePiece& piece = shadowed.seen.pieces[i];
+    for (std::size_t number = 0; number < shadowed.seen.pieces.size(); ++number) {
+        loop.turn(number);
+        const VisiblePiece& piece = shadowed.seen.pieces[number];
         for (const std::uint32_t triangle : {piece.left, piece.right}) {
             if (triangle == no_triangle)
                 continue;
             const std::uint32_t face = screen.triangles[triangle].source;
             const std::uint32_t facet = shadowed.faces.first_facet[face];
             const FacePlane plane = plane_of(shadowed, face, facet + 1);
-            for (const std::uint32_t number : {piece.from, piece.to}) {
-                const RationalPoint& end = shadowed.seen.points[number];
+            SeenSegment segment;
+            for (std::size_t i = 0; i < 2; ++i) {
+                const RationalPoint& end = shadowed.seen.points[i == 0 ? piece.from : piece.to];
                 const Ray ray =
                     view_ray(shadowed.camera, end.x() / screen_size, end.y() / screen_size);
                 const Vec3 at =
                     point_at(ray, -plane.height(ray.origin) / dot(plane.normal, ray.direction));
                 // Of a plane seen edge-on it may be anywhere; what is not finite leaves the box.
-                seen = grown(seen, min(max(at, all.lower), all.upper));
-                pixel = std::min(
-                    pixel, shadowed.map.size_of_pixel(shadowed.width, shadowed.height, at));
+                segment.ends[i] = min(max(at, all.lower), all.upper);
+                segment.pixels[i] =
+                    shadowed.map.size_of_pixel(shadowed.width, shadowed.height, segment.ends[i]);
+                seen.box = grown(seen.box, segment.ends[i]);
             }
+            seen.segments.push_back(segment);
         }
     }
-    const bool is_finite = std::isfinite(length(seen.upper - seen.lower));
-    return seen.empty() || !is_finite ? all : seen;
+    const bool is_finite = std::isfinite(length(seen.box.upper - seen.box.lower));
+    if (seen.box.empty() || !is_finite)
+        seen.box = all;
+    return seen;
 }
 
-/// A face of which a light reaches a part.
-struct PartlyLit {
+/// A face on which shadows of a light may fall.
+struct Receiving {
     std::uint32_t face = 0;
     FacePlane plane;
     double light_height = 0;
@@ -199,27 +206,36 @@ public:
     LightShadows(
         const ShadowedScene& shadowed,
         std::span<const Receiver> receivers,
-        const Box3& box,
+        const SeenPlaces& seen,
         std::uint32_t light,
         ScreenScene& screen,
         const CancelFlag* cancel)
         : shadowed_(shadowed)
         , receivers_(receivers)
-        , box_(box)
+        , seen_(seen)
         , light_(light)
         , position_(shadowed.scene.lights[light].position)
         , screen_(screen)
         , memory_(screen)
         , cancel_(cancel) {}
 
-    void add(const Progress& progress, ShadowCounts& counts);
+    void add(const ClosedBodies& bodies, const Progress& progress, ShadowCounts& counts);
 
 private:
-    void find_partly_lit(const LitFacets& lit);
+    void find_turned();
+    std::vector<std::uint32_t> facets_to_look_at(const ClosedBodies& bodies) const;
+    void keep_partly_lit(const LitFacets& lit);
     std::vector<Throw> throws(const LightViews& views) const;
     std::vector<ImagePoint> shadow(const Throw& thrown) const;
     void
     add_to_screen(const Throw& thrown, std::span<const ImagePoint> shadow, VertexNumbers& numbers);
+
+    /// How high the point is over the outer side of the facet, in some unit.
+    double outer_height(std::uint32_t facet, Vec3 point) const {
+        const auto& corners = shadowed_.facets.triangles[facet].corners;
+        const auto corner = [&](std::size_t i) { return shadowed_.facets.corners[corners[i]]; };
+        return dot(cross(corner(1) - corner(0), corner(2) - corner(0)), point - corner(0));
+    }
 
     std::uint32_t end_facet(std::uint32_t face) const {
         const auto& first = shadowed_.faces.first_facet;
@@ -230,17 +246,18 @@ private:
 
     const ShadowedScene& shadowed_;
     std::span<const Receiver> receivers_;
-    const Box3& box_; ///< of all that is seen
+    const SeenPlaces& seen_;
     std::uint32_t light_;
     Vec3 position_;
     ScreenScene& screen_;
     ShadowMemory memory_;
     const CancelFlag* cancel_;
-    std::vector<PartlyLit> partly_lit_;
+    std::vector<Receiving> turned_; ///< to the light; then those that it reaches a part of
 };
 
-/// Tells which faces the light reaches none of, and which a part of.
-void LightShadows::find_partly_lit(const LitFacets& lit) {
+/// Finds the faces of which the viewer sees the side that is turned to the light: the lighting
+/// formula gives nothing to the others.
+void LightShadows::find_turned() {
     const LongLoop loop(receivers_.size(), {}, cancel_);
     for (std::uint32_t face = 0; face < receivers_.size(); ++face) {
         loop.turn(face);
@@ -254,15 +271,45 @@ void LightShadows::find_partly_lit(const LitFacets& lit) {
             light_height = -light_height;
             from_viewer = -from_viewer;
         }
-        // The lighting formula gives nothing to the side away from the light.
-        if (!(light_height > 0 && from_viewer > 0))
-            continue;
-        const std::uint32_t first = shadowed_.faces.first_facet[face];
+        if (light_height > 0 && from_viewer > 0)
+            turned_.push_back({face, plane, light_height, 0});
+    }
+}
+
+/// The facets that the light's views are made of. From outside a closed body, what is seen behind a
+/// facet that faces away from the light is behind one that faces it as well: between the light and
+/// a place outside, a way goes out as often as it goes in.
+std::vector<std::uint32_t> LightShadows::facets_to_look_at(const ClosedBodies& bodies) const {
+    std::vector<std::uint8_t> is_turned(receivers_.size());
+    for (const Receiving& receiving : turned_)
+        is_turned[receiving.face] = 1;
+    const bool is_parallel = shadowed_.camera.projection == Camera::Projection::parallel;
+    std::vector<std::uint8_t> is_outside(bodies.boxes.size());
+    for (std::size_t i = 0; i < is_outside.size(); ++i) {
+        const Box3& box = bodies.boxes[i];
+        is_outside[i] = !contains(box, position_)
+            && (is_parallel || !contains(box, shadowed_.camera.viewpoint));
+    }
+    std::vector<std::uint32_t> result;
+    for (std::uint32_t i = 0; i < bodies.of_facet.size(); ++i) {
+        const std::uint32_t body = bodies.of_facet[i];
+        const bool may_be_left_out =
+            body != no_body && is_outside[body] != 0 && is_turned[shadowed_.faces.of_facet[i]] == 0;
+        if (!may_be_left_out || outer_height(i, position_) >= 0)
+            result.push_back(i);
+    }
+    return result;
+}
+
+/// Tells of which of the faces the light reaches nothing, and leaves those of which it does a part.
+void LightShadows::keep_partly_lit(const LitFacets& lit) {
+    std::erase_if(turned_, [&](Receiving& receiving) {
+        const std::uint32_t face = receiving.face;
         bool all = true;
         bool any_shown = false;
         bool any_lit = false;
         double step = std::numeric_limits<double>::infinity();
-        for (std::uint32_t i = first; i < end_facet(face); ++i) {
+        for (std::uint32_t i = shadowed_.faces.first_facet[face]; i < end_facet(face); ++i) {
             // What the light's views do not show is so small or near that nothing is before it.
             const bool is_shown = lit.is_shown(i) || !lit.is_opaque(i);
             any_shown = any_shown || is_shown;
@@ -274,18 +321,19 @@ void LightShadows::find_partly_lit(const LitFacets& lit) {
                     shadowed_.map.size_of_pixel(
                         screen_size, screen_size, shadowed_.facets.corners[corner]));
         }
-        if (any_shown && !any_lit)
+        receiving.flat = 0.25 * step;
+        const bool is_unlit = any_shown && !any_lit;
+        if (is_unlit)
             screen_.unlit[face] |= LightSet{1} << light_;
-        else if (!all)
-            partly_lit_.push_back({face, plane, light_height, 0.25 * step});
-    }
+        return is_unlit || all;
+    });
 }
 
 std::vector<Throw> LightShadows::throws(const LightViews& views) const {
     constexpr std::uint32_t none = ~std::uint32_t{0};
     std::vector<std::uint32_t> number(receivers_.size(), none);
-    for (std::uint32_t i = 0; i < partly_lit_.size(); ++i)
-        number[partly_lit_[i].face] = i;
+    for (std::uint32_t i = 0; i < turned_.size(); ++i)
+        number[turned_[i].face] = i;
     std::vector<Throw> result;
     std::mutex mutex;
     const auto add_all = [&](const LightView& view, const ScreenScene& of) {
@@ -322,7 +370,7 @@ std::vector<Throw> LightShadows::throws(const LightViews& views) const {
 /// Where the facet's shadow lies on the face's plane, as the camera sees it, in the receiver's part
 /// of the picture.
 std::vector<ImagePoint> LightShadows::shadow(const Throw& thrown) const {
-    const PartlyLit& on = partly_lit_[thrown.partly_lit];
+    const Receiving& on = turned_[thrown.partly_lit];
     const Facets::Triangle& facet = shadowed_.facets.triangles[thrown.facet];
     // Heights, by the light's, are kept in the points' depths.
     std::array<ImagePoint, 3> corners;
@@ -370,7 +418,7 @@ std::vector<ImagePoint> LightShadows::shadow(const Throw& thrown) const {
 
 void LightShadows::add_to_screen(
     const Throw& thrown, std::span<const ImagePoint> shadow, VertexNumbers& numbers) {
-    const std::uint32_t face = partly_lit_[thrown.partly_lit].face;
+    const std::uint32_t face = turned_[thrown.partly_lit].face;
     // A copy: triangles are added.
     const ScreenTriangle on = screen_.triangles[receivers_[face].largest];
     const NearnessSlope slope = nearness_slope(plane_of(screen_, on));
@@ -391,28 +439,38 @@ void LightShadows::add_to_screen(
         add_part(screen_, {vertices[0], vertices[i - 1], vertices[i]}, on, light_);
 }
 
-void LightShadows::add(const Progress& progress, ShadowCounts& counts) {
+void LightShadows::add(const ClosedBodies& bodies, const Progress& progress, ShadowCounts& counts) {
     StageProgress stages(progress, 4);
-    const LightViews views =
-        light_views(shadowed_.scene, shadowed_.facets, position_, box_, stages.next(3), cancel_);
+    find_turned();
+    const LightViews views = light_views(
+        shadowed_.scene,
+        shadowed_.facets,
+        facets_to_look_at(bodies),
+        position_,
+        seen_.box,
+        seen_.segments,
+        stages.next(3),
+        cancel_);
     const Progress of_shadows = stages.next(1);
     counts.cut_nearness = std::max(counts.cut_nearness, views.cut_nearness);
-    counts.light_step = std::max(counts.light_step, views.step);
-    find_partly_lit(views.lit);
-    counts.partly_lit += partly_lit_.size();
+    counts.light_step = std::max(counts.light_step, views.coarse_step);
+    keep_partly_lit(views.lit);
+    counts.partly_lit += turned_.size();
     const std::vector<Throw> thrown = throws(views);
-    std::vector<std::vector<ImagePoint>> shadows(thrown.size());
-    parallel_ranges(thrown.size(), 256, [&](std::size_t first, std::size_t last) {
-        stop_if_raised(cancel_);
-        for (std::size_t i = first; i < last; ++i)
-            shadows[i] = shadow(thrown[i]);
-    });
     const std::size_t before = screen_.triangles.size();
     VertexNumbers numbers(screen_.vertices);
-    const LongLoop loop(thrown.size(), of_shadows, cancel_);
-    for (std::size_t i = 0; i < thrown.size(); ++i) {
-        loop.turn(i);
-        add_to_screen(thrown[i], shadows[i], numbers);
+    constexpr std::size_t batch = 4096; // so that not all are kept twice
+    std::vector<std::vector<ImagePoint>> shadows(std::min(batch, thrown.size()));
+    const LongLoop loop(thrown.size(), of_shadows, cancel_, batch);
+    for (std::size_t first = 0; first < thrown.size(); first += batch) {
+        loop.turn(first);
+        const std::size_t count = std::min(batch, thrown.size() - first);
+        parallel_ranges(count, 256, [&](std::size_t from, std::size_t to) {
+            for (std::size_t i = from; i < to; ++i)
+                shadows[i] = shadow(thrown[first + i]);
+        });
+        for (std::size_t i = 0; i < count; ++i)
+            add_to_screen(thrown[first + i], shadows[i], numbers);
     }
     counts.shadows += screen_.triangles.size() - before;
 }
@@ -427,17 +485,14 @@ ShadowCounts add_shadows(
     ShadowCounts counts;
     const std::size_t faces = shadowed.faces.first_facet.size();
     const std::vector<Receiver> receivers = receivers_of(screen, shadowed.seen, faces);
-    double pixel = std::numeric_limits<double>::infinity();
-    const Box3 box = seen_box(shadowed, screen, cancel, pixel);
+    const SeenPlaces seen = seen_places(shadowed, screen, cancel);
+    const ClosedBodies bodies = closed_bodies(shadowed.facets);
     screen.unlit.assign(faces, 0);
     const std::size_t lights =
         std::min<std::size_t>(shadowed.scene.lights.size(), most_lights_of_a_set);
     for (std::uint32_t i = 0; i < lights; ++i)
-        LightShadows(shadowed, receivers, box, i, screen, cancel)
-            .add(progress_part(progress, i, lights), counts);
-    // What is smaller than a pixel is not missed.
-    if (counts.light_step <= pixel)
-        counts.light_step = 0;
+        LightShadows(shadowed, receivers, seen, i, screen, cancel)
+            .add(bodies, progress_part(progress, i, lights), counts);
     return counts;
 }
 

@@ -31,7 +31,7 @@ struct ShadowCounts {
     std::size_t partly_lit = 0; ///< pairs of a light and a face of which it reaches a part
     std::size_t shadows = 0;    ///< triangles that were added
     double light_step = 0;      ///< what is smaller than that, in the scene's units, may throw no
-                                ///< shadow; 0: nothing that is as large as a pixel
+                                ///< shadow; 0: nothing that is larger than 1/64 of a pixel
     double cut_nearness = 0; ///< what is so near a light, in the scene's units, throws no shadow;
                              ///< 0: everything does
 };
