@@ -85,7 +85,7 @@ VisiblePieces found(const ScreenScene& scene, bool by_sweep, nlohmann::ordered_j
         return pieces;
     }
     CellCounts counts;
-    VisiblePieces pieces = cell_raster(scene, {}, nullptr, json != nullptr ? &counts : nullptr);
+    VisiblePieces pieces = cell_raster(scene, {}, nullptr, {}, json != nullptr ? &counts : nullptr);
     if (json != nullptr)
         (*json)["counts"] = as_json(counts);
     return pieces;
