@@ -168,7 +168,7 @@ TEST(DrawScene, EveryStageEndsThatIsTooLongToWaitFor) {
         [&] { covered_areas(map, {}, &raised); },
         [&] { covering_whole(regions, {}, &raised); },
         [&] { underlays(regions, fills, {}, &raised); },
-        [&] { hidden_parts(screen, edges, drawn, pieces, {}, &raised); },
+        [&] { hidden_parts(screen, edges, drawn, pieces, {}, {}, &raised); },
         [&] { MapRaster(map, 100, 100, &raised); },
     };
     for (std::size_t i = 0; i < std::size(stages); ++i)
@@ -192,7 +192,7 @@ TEST(DrawScene, LongLoopsOfTheMapAndOfAreasLookAgainAndAgain) {
         [&](const auto&... told) { covered_areas(map, told...); },
         [&](const auto&... told) { covering_whole(regions, told...); },
         [&](const auto&... told) { underlays(regions, fills, told...); },
-        [&](const auto&... told) { hidden_parts(screen, edges, drawn, pieces, told...); },
+        [&](const auto&... told) { hidden_parts(screen, edges, drawn, pieces, {}, told...); },
         [&](const Progress& progress, const CancelFlag* cancel) {
             cell_raster(screen, progress, cancel);
         },

@@ -326,6 +326,30 @@ TEST(OutlineStrokes, DashOfWhatIsCoveredAsMuchAsIsCovered) {
     EXPECT_EQ(hidden, 2);
 }
 
+TEST(OutlineStrokes, DashWhatIsHiddenOfAnIntersection) {
+    // A plate that another passes through along x = 0, and a third one before their upper half.
+    Scene scene;
+    add_polygon(scene.geometry, {{-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}});
+    add_polygon(scene.geometry, {{-1, -1, -1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, -1}});
+    add_polygon(scene.geometry, {{-2.5, 0, 2}, {2.5, 0, 2}, {2.5, 2.5, 2}, {-2.5, 2.5, 2}});
+    const Camera camera = camera_from_the_front();
+    for (const DrawingStyle style : {DrawingStyle::lines, DrawingStyle::hidden_lines}) {
+        double seen = 0;
+        double hidden = 0;
+        for (const Stroke& stroke : lines_of(scene, camera, style)) {
+            const bool is_upright = stroke.points.size() == 2
+                && std::abs(stroke.points[0].x - 256) < 0.01
+                && std::abs(stroke.points[1].x - 256) < 0.01;
+            if (is_upright && stroke.line_class == LineClass::intersection)
+                seen += distance(stroke.points[0], stroke.points[1]);
+            if (is_upright && stroke.line_class == LineClass::hidden)
+                hidden += distance(stroke.points[0], stroke.points[1]);
+        }
+        EXPECT_NEAR(seen, 512 / 6.0, 1e-2);
+        EXPECT_NEAR(hidden, style == DrawingStyle::lines ? 0 : 512 / 6.0, 1e-2);
+    }
+}
+
 TEST(OutlineStrokes, OfRandomScenesAreFiniteInTheFrameAndWhole) {
     constexpr double deviation = 0.5;
     std::size_t arc_count = 0;

@@ -130,6 +130,7 @@ struct SeenScene {
     Facets facets;
     DrawnFaces faces;
     ScreenScene screen; ///< whose sources are the faces
+    ScreenScene uncut;  ///< the same before what penetrates was cut, where hidden lines are drawn
     WholePieces whole;
 };
 
@@ -159,6 +160,8 @@ SeenScene seen_scene(Request& request) {
         std::numeric_limits<double>::infinity(),
         request.cancel);
     sort_by_place(seen.screen, request.cancel);
+    if (request.settings.style == DrawingStyle::hidden_lines)
+        seen.uncut = seen.screen;
     seen.whole = whole_pieces(
         seen.screen,
         request.next_stage(request.times.seeing),
@@ -229,7 +232,8 @@ Drawing painted(Request& request, const SeenScene& seen, const VisibleMap& map) 
              seen.screen,
              seen.whole.pieces,
              map,
-             settings.deviation},
+             settings.deviation,
+             &seen.uncut},
             {.hidden = settings.style == DrawingStyle::hidden_lines,
              .shadows = settings.shadow_lines},
             request.next_stage(request.times.lines),

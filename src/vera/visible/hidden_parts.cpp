@@ -64,6 +64,13 @@ Span span_of(const ScreenScene& scene, const VisiblePieces& pieces, const Visibl
     return span;
 }
 
+Span span_of(const HiddenIntersection& hidden, std::uint32_t number) {
+    Span span = {line_through(hidden.begin, hidden.end), hidden.from, hidden.to, number};
+    if (order(span.to, span.from) < 0)
+        std::swap(span.from, span.to);
+    return span;
+}
+
 /// Exact orders take long: the flag is looked at while they are asked for.
 void sort_spans(std::vector<Span>& spans, const CancelFlag* cancel) {
     std::size_t asked = 0;
@@ -74,13 +81,17 @@ void sort_spans(std::vector<Span>& spans, const CancelFlag* cancel) {
     });
 }
 
-std::vector<Span> spans_of_edges(
+std::vector<Span> spans_to_draw(
     const ScreenScene& scene,
     const ScreenEdges& edges,
     std::span<const std::uint32_t> drawn,
+    std::span<const HiddenIntersection> intersections,
     const CancelFlag* cancel) {
     std::vector<Span> spans;
-    spans.reserve(drawn.size());
+    spans.reserve(drawn.size() + intersections.size());
+    for (std::size_t i = 0; i < intersections.size(); ++i)
+        spans.push_back(
+            span_of(intersections[i], static_cast<std::uint32_t>(edges.edges.size() + i)));
     const LongLoop loop(drawn.size(), {}, cancel);
     for (std::size_t i = 0; i < drawn.size(); ++i) {
         loop.turn(i);
@@ -122,11 +133,12 @@ std::vector<HiddenPart> hidden_parts(
     const ScreenEdges& edges,
     std::span<const std::uint32_t> drawn,
     const VisiblePieces& pieces,
+    std::span<const HiddenIntersection> intersections,
     const Progress& progress,
     const CancelFlag* cancel) {
     StageProgress stages(progress, 3);
     stages.next(1);
-    const std::vector<Span> spans = spans_of_edges(scene, edges, drawn, cancel);
+    const std::vector<Span> spans = spans_to_draw(scene, edges, drawn, intersections, cancel);
     stages.next(1);
     const std::vector<Span> seen = spans_of_pieces(scene, pieces, spans, cancel);
     std::vector<HiddenPart> parts;

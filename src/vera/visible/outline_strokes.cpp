@@ -6,6 +6,7 @@
 #include "vera/base/progress_part.h"
 #include "vera/drawing/elliptic_arc.h"
 #include "vera/visible/curve_parts.h"
+#include "vera/visible/hidden_intersections.h"
 #include "vera/visible/hidden_parts.h"
 #include "vera/visible/line_chains.h"
 #include "vera/visible/line_rules.h"
@@ -62,6 +63,22 @@ visible_parts(const StrokeSources& sources, const LineRules& rules, const Cancel
     return parts;
 }
 
+/// Of different things, or of one that is not smooth there.
+std::vector<HiddenIntersection>
+intersections_of(const StrokeSources& sources, const CancelFlag* cancel) {
+    const ScreenScene& uncut = *sources.uncut;
+    const auto facet_of = [&](std::uint32_t triangle) -> const Facets::Triangle& {
+        const std::uint32_t face = uncut.triangles[triangle].source;
+        return sources.facets.triangles[sources.faces.first_facet[face]];
+    };
+    const auto is_asked = [&](std::uint32_t one, std::uint32_t other) {
+        const Facets::Triangle& a = facet_of(one);
+        const Facets::Triangle& b = facet_of(other);
+        return a.primitive != b.primitive || a.piece != b.piece;
+    };
+    return hidden_intersections(uncut, is_asked, cancel);
+}
+
 void add_hidden_parts(
     const StrokeSources& sources,
     const LineRules& rules,
@@ -69,19 +86,33 @@ void add_hidden_parts(
     const CancelFlag* cancel,
     LineParts& lines) {
     const ScreenEdges& edges = rules.edges();
+    const std::vector<HiddenIntersection> intersections = intersections_of(sources, cancel);
     const std::vector<HiddenPart> hidden = hidden_parts(
-        sources.screen, edges, rules.drawn_edges(cancel), sources.pieces, progress, cancel);
+        sources.screen,
+        edges,
+        rules.drawn_edges(cancel),
+        sources.pieces,
+        intersections,
+        progress,
+        cancel);
     PointNumbers numbers(lines.points, lines.points.size() + 2 * hidden.size());
     const LongLoop loop(hidden.size(), {}, cancel);
     for (std::size_t i = 0; i < hidden.size(); ++i) {
         loop.turn(i);
         const HiddenPart& part = hidden[i];
-        const auto& [begin, end] = edges.edges[part.edge];
-        const auto triangles = rules.edge_triangles().of(part.edge);
         LinePart& line = lines.parts.emplace_back();
         line.ends = {numbers.number(part.from), numbers.number(part.to)};
-        line.step = step(sources.screen.vertices[begin].point, sources.screen.vertices[end].point);
         line.line_class = LineClass::hidden;
+        if (part.edge >= edges.edges.size()) {
+            const HiddenIntersection& intersection = intersections[part.edge - edges.edges.size()];
+            line.step = step(intersection.begin, intersection.end);
+            for (std::size_t j = 0; j < 2; ++j)
+                line.faces[j] = sources.uncut->triangles[intersection.triangles[j]].source;
+            continue;
+        }
+        const auto& [begin, end] = edges.edges[part.edge];
+        const auto triangles = rules.edge_triangles().of(part.edge);
+        line.step = step(sources.screen.vertices[begin].point, sources.screen.vertices[end].point);
         line.faces = {
             sources.screen.triangles[triangles.front()].source,
             sources.screen.triangles[triangles.back()].source};

@@ -26,12 +26,13 @@ struct StrokeSources {
     const ScreenScene& screen;
     const VisiblePieces& pieces;
     const VisibleMap& map;
-    double deviation = 0; ///< how far facets may lie off what is curved, in pixels
+    double deviation = 0;               ///< how far facets may lie off what is curved, in pixels
+    const ScreenScene* uncut = nullptr; ///< for hidden lines: before what penetrates was cut
 };
 
 /// Lines that not every drawing is to have.
 struct ExtraLines {
-    bool hidden = false;  ///< the parts of silhouettes and creases that are not seen
+    bool hidden = false;  ///< what is not seen of silhouettes, creases and intersections
     bool shadows = false; ///< where the screen's shadows end
 };
 
