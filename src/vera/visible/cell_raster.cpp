@@ -202,6 +202,25 @@ private:
     std::vector<std::unique_ptr<EdgeSweep>> idle_;
 };
 
+/// Of the pieces before, those of edges from this one on.
+auto first_piece_of(const std::vector<VisiblePiece>& before, ScreenEdges::Edge edge) {
+    return std::lower_bound(
+        before.begin(),
+        before.end(),
+        edge,
+        [](const VisiblePiece& piece, const ScreenEdges::Edge& value) {
+            return piece.edge < value;
+        });
+}
+
+/// How many of the pieces before are those of the edge.
+std::size_t kept_pieces(const std::vector<VisiblePiece>& before, ScreenEdges::Edge edge) {
+    std::size_t count = 0;
+    for (auto i = first_piece_of(before, edge); i != before.end() && i->edge == edge; ++i)
+        ++count;
+    return count;
+}
+
 /// An edge, and how many marks at equal distances lie on it where all edges are laid end to end.
 struct MarkedEdge {
     std::uint32_t edge = 0;
@@ -248,7 +267,8 @@ struct Expected {
 };
 
 /// From a few edges (systematic sampling, in proportion to their lengths).
-Expected expected(const CellRaster& raster, const CancelFlag* cancel) {
+Expected expected(
+    const CellRaster& raster, const std::vector<VisiblePiece>& before, const CancelFlag* cancel) {
     EdgeSweeps sweeps(raster); // of its own: what they count is not counted
     double distance = 0;
     const std::vector<MarkedEdge> marked = marked_edges(raster, distance);
@@ -257,8 +277,14 @@ Expected expected(const CellRaster& raster, const CancelFlag* cancel) {
         stop_if_raised(cancel);
         std::unique_ptr<EdgeSweep> sweep = sweeps.take();
         for (std::size_t i = first; i < last; ++i) {
+            const std::uint32_t edge = marked[i].edge;
+            if (!raster.is_near_change.empty() && raster.is_near_change[edge] == 0) {
+                found[i].pieces =
+                    static_cast<double>(kept_pieces(before, raster.edges.edges[edge]));
+                continue;
+            }
             VisiblePieces pieces;
-            sweep->follow(marked[i].edge, pieces);
+            sweep->follow(edge, pieces);
             found[i] = {
                 static_cast<double>(pieces.pieces.size()),
                 static_cast<double>(pieces.penetrating.size())};
@@ -277,24 +303,17 @@ Expected expected(const CellRaster& raster, const CancelFlag* cancel) {
 /// Of so few edges there are never so many pieces that memory could run out.
 constexpr std::size_t few_edges = 1024;
 
-void check_memory(const CellRaster& raster, const ExpectPieces& expect, const CancelFlag* cancel) {
+void check_memory(
+    const CellRaster& raster,
+    const std::vector<VisiblePiece>& before,
+    const ExpectPieces& expect,
+    const CancelFlag* cancel) {
     if (raster.edges.edges.size() < few_edges)
         return;
-    const auto [pieces, pairs] = expected(raster, cancel);
+    const auto [pieces, pairs] = expected(raster, before, cancel);
     require_piece_memory(pieces, pairs);
     if (expect)
         expect(pieces);
-}
-
-/// Of the pieces before, those of edges from this one on.
-auto first_piece_of(const std::vector<VisiblePiece>& before, ScreenEdges::Edge edge) {
-    return std::lower_bound(
-        before.begin(),
-        before.end(),
-        edge,
-        [](const VisiblePiece& piece, const ScreenEdges::Edge& value) {
-            return piece.edge < value;
-        });
 }
 
 /// Adds a piece between two of the points, which are others there.
@@ -321,7 +340,7 @@ std::vector<VisiblePieces> follow_edges(
     const std::vector<ScreenEdges::Edge>& edges = raster.edges.edges;
     std::vector<VisiblePieces> parts((edges.size() + part - 1) / part);
     EdgeSweeps sweeps(raster);
-    check_memory(raster, expect, cancel);
+    check_memory(raster, before.pieces, expect, cancel);
     std::mutex mutex;
     std::size_t done = 0;
     const auto follow_part = [&](std::size_t number, EdgeSweep& sweep) {

@@ -76,8 +76,6 @@ private:
     void block(Cells& cells) const;
     std::uint64_t count(Cells& cells);
 
-    bool is_asked(std::size_t cell) const { return is_asked_.empty() || is_asked_[cell] != 0; }
-
     const ScreenScene& scene_;
     std::span<const NearnessSlope> slopes_;
     const CancelFlag* cancel_;
@@ -147,7 +145,7 @@ void CellLists::for_each_entry(const Cells& cells, const Visit& visit) const {
         [&](std::uint32_t i, std::int32_t row, const RowOfCells& found) {
             for (std::int32_t j = found.touched.first; j <= found.touched.last; ++j)
                 if (const std::size_t cell = cells.number(j, row);
-                    is_asked(cell) && nearness_[i] >= cells.blocked[cell])
+                    nearness_[i] >= cells.blocked[cell])
                     visit(cell, i);
         });
 }
@@ -161,10 +159,7 @@ void CellLists::block(Cells& cells) const {
         },
         [&](std::uint32_t i, std::int32_t row, const RowOfCells& found) {
             for (std::int32_t j = found.covered.first; j <= found.covered.last; ++j) {
-                const std::size_t cell = cells.number(j, row);
-                if (!is_asked(cell))
-                    continue;
-                double& blocked = cells.blocked[cell];
+                double& blocked = cells.blocked[cells.number(j, row)];
                 const ScreenPoint lower = {j << cells.shift, row << cells.shift};
                 blocked = std::max(
                     blocked, least_nearness(cells, slopes_[i], lower) - hidden_margin(slopes_[i]));
@@ -182,6 +177,9 @@ std::uint64_t CellLists::count(Cells& cells) {
     cells.starts.assign(number + 2, 0);
     is_asked_ = asked_ ? asked_(cells) : std::vector<std::uint8_t>();
     block(cells);
+    for (std::size_t cell = 0; cell < is_asked_.size(); ++cell)
+        if (is_asked_[cell] == 0)
+            cells.blocked[cell] = std::numeric_limits<double>::infinity();
     for_each_entry(cells, [&](std::size_t cell, std::uint32_t) { ++cells.starts[cell + 2]; });
     return std::accumulate(cells.starts.begin(), cells.starts.end(), std::uint64_t{0});
 }

@@ -120,7 +120,7 @@ using AskedCells = std::function<std::vector<std::uint8_t>(const Cells&)>;
 
 /// slopes[i] is that of triangle i. Where many triangles lie one behind the other
 /// there are fewer cells, so that the lists stay in proportion to the triangles.
-/// Cells that are not asked for have empty lists and block nothing.
+/// Cells that are not asked for have empty lists and block everything.
 Cells cells_of(
     const ScreenScene& scene,
     std::span<const NearnessSlope> slopes,

@@ -120,7 +120,7 @@ struct Request {
     /// Refuses a drawing that would not fit into memory.
     ExpectPieces expect_pieces(const ScreenScene& screen) const {
         return [&screen, style = settings.style](double pieces) {
-            require_drawing_memory(pieces, screen.triangles.size(), style);
+            require_drawing_memory(pieces, counts_of(screen).surfaces, style);
         };
     }
 };

@@ -179,9 +179,11 @@ void EdgeSweep::find_hidden_parts() {
 /// Of what find_hidden_parts() found.
 bool EdgeSweep::is_hidden(SegmentPlace first, SegmentPlace last) const {
     const auto parts = std::span(covers_).subspan(first_hidden_, last_hidden_ - first_hidden_);
-    return std::any_of(parts.begin(), parts.end(), [&](const Cover& part) {
-        return order(part.first, first) <= 0 && order(last, part.last) <= 0;
+    // They lie apart from each other, in their order.
+    const auto behind = std::partition_point(parts.begin(), parts.end(), [&](const Cover& part) {
+        return order(part.first, first) <= 0;
     });
+    return behind != parts.begin() && order(last, (behind - 1)->last) <= 0;
 }
 
 void EdgeSweep::sort_events() {
@@ -317,7 +319,12 @@ void EdgeSweep::find_seen_sources(bool is_of_surfaces) {
             break;
         if (is_hidden_here_)
             continue;
+        const std::size_t pairs = result_->penetrating.size();
         const auto [left, right] = seen_between(here.value, events_[i].value, !is_of_surfaces);
+        // Where some pass through each other, others than those in the middle are seen as well.
+        if (result_->penetrating.size() > pairs)
+            for (const std::uint32_t cover : active_)
+                seen_sources_.push_back(source_of(covers_[cover].triangle));
         for (const Cover* cover : {left, right})
             if (cover != nullptr && (left != right || !is_of_surfaces))
                 seen_sources_.push_back(source_of(cover->triangle));

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/shadow_cells.h"
 
+#include "vera/base/available_memory.h"
 #include "vera/base/long_loop.h"
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <numeric>
+#include <stdexcept>
 
 namespace vera {
 
@@ -49,7 +52,18 @@ ShadowCells shadow_cells_of(
     if (by_source.empty())
         return shadows;
     shadows.starts.resize(cells.starts.size());
-    for_each_entry([&](std::size_t cell, std::uint32_t) { ++shadows.starts[cell + 1]; });
+    std::uint64_t entries = 0;
+    for_each_entry([&](std::size_t cell, std::uint32_t) {
+        ++shadows.starts[cell + 1];
+        ++entries;
+    });
+    require_memory(
+        sizeof(std::uint32_t) * static_cast<double>(entries),
+        "listing shadows in the parts of the picture that they lie in",
+        "--shadows off leaves them out");
+    if (entries > std::numeric_limits<std::uint32_t>::max())
+        throw std::runtime_error("the shadows lie in more than 2^32 parts of the picture: "
+                                 "--shadows off leaves them out");
     std::partial_sum(shadows.starts.begin(), shadows.starts.end(), shadows.starts.begin());
     shadows.triangles.resize(shadows.starts.back());
     std::vector<std::uint32_t> next(shadows.starts.begin(), shadows.starts.end() - 1);

@@ -26,7 +26,8 @@ struct ShadowCells {
     shadows_on(std::size_t cell, std::uint32_t source, const ScreenScene& scene) const;
 };
 
-/// In those cells, but where they are hidden. slopes[i] is that of triangle i.
+/// In those cells, but where they are hidden. Throws std::runtime_error where the lists would not
+/// fit into the memory that is available. slopes[i] is that of triangle i.
 ShadowCells shadow_cells_of(
     const Cells& cells,
     const ScreenScene& scene,

@@ -196,8 +196,9 @@ void block_by_sheets(Cells& cells, const SheetScene& sheets, const CancelFlag* c
     auto kept = cells.triangles.begin();
     for (std::size_t cell = 0; cell < ends.size(); ++cell) {
         const auto first = cells.triangles.begin() + cells.starts[cell];
+        const auto last = cells.triangles.begin() + ends[cell];
         cells.starts[cell] = static_cast<std::uint32_t>(kept - cells.triangles.begin());
-        kept = std::move(first, cells.triangles.begin() + ends[cell], kept);
+        kept = kept == first ? last : std::move(first, last, kept);
     }
     cells.starts.back() = static_cast<std::uint32_t>(kept - cells.triangles.begin());
     cells.triangles.erase(kept, cells.triangles.end());
