@@ -5,6 +5,7 @@
 #include "vera/base/progress_part.h"
 #include "vera/visible/drawing_memory.h"
 #include "vera/visible/edge_sweep.h"
+#include "vera/visible/first_equal.h"
 #include "vera/visible/point_numbers.h"
 #include "vera/visible/sheets.h"
 
@@ -316,17 +317,6 @@ void check_memory(
         expect(pieces);
 }
 
-/// Adds a piece between two of the points, which are others there.
-void add_piece(
-    VisiblePiece piece,
-    std::span<const RationalPoint> points,
-    PointNumbers& numbers,
-    VisiblePieces& to) {
-    piece.from = numbers.number(points[piece.from]);
-    piece.to = numbers.number(points[piece.to]);
-    to.pieces.push_back(piece);
-}
-
 /// Follows the edges that are near what was changed, or all, and keeps the pieces of the others.
 /// What is found lies in parts, one behind the other.
 std::vector<VisiblePieces> follow_edges(
@@ -366,8 +356,11 @@ std::vector<VisiblePieces> follow_edges(
         VisiblePieces& result = parts[number];
         result.pieces.reserve(found.pieces.size());
         PointNumbers numbers(result.points, found.points.size());
-        for (const VisiblePiece& piece : found.pieces)
-            add_piece(piece, found.points, numbers, result);
+        for (VisiblePiece piece : found.pieces) {
+            piece.from = numbers.number(found.points[piece.from]);
+            piece.to = numbers.number(found.points[piece.to]);
+            result.pieces.push_back(piece);
+        }
         result.points.shrink_to_fit();
         result.penetrating = std::move(found.penetrating);
     };
@@ -385,21 +378,51 @@ std::vector<VisiblePieces> follow_edges(
     return parts;
 }
 
+/// The points of the parts, each once, in the order in which they come; numbers tells which of them
+/// each is, one part's behind the other's. Takes them out of the parts.
+std::vector<RationalPoint> joined_points(
+    std::vector<VisiblePieces>& parts,
+    std::span<const std::size_t> starts,
+    std::vector<std::uint32_t>& numbers) {
+    std::vector<const RationalPoint*> points(starts.back());
+    parallel_ranges(parts.size(), 1, [&](std::size_t part, std::size_t) {
+        for (std::size_t i = 0; i < parts[part].points.size(); ++i)
+            points[starts[part] + i] = &parts[part].points[i];
+    });
+    numbers = first_equal(
+        points.size(),
+        [&](std::size_t i) { return hash_of(*points[i]); },
+        [&](std::size_t i, std::size_t j) { return *points[i] == *points[j]; });
+    const std::vector<std::uint32_t> firsts = number_consecutively(numbers);
+    std::vector<RationalPoint> result(firsts.size());
+    parallel_ranges(firsts.size(), 4096, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+            result[i] = *points[firsts[i]];
+    });
+    for (VisiblePieces& part : parts)
+        part.points = {};
+    return result;
+}
+
 VisiblePieces joined(std::vector<VisiblePieces> parts) {
-    VisiblePieces result;
+    std::vector<std::size_t> starts(parts.size() + 1); // of the parts' points
     std::size_t pieces = 0;
-    std::size_t points = 0;
-    for (const VisiblePieces& part : parts) {
-        pieces += part.pieces.size();
-        points += part.points.size();
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        starts[i + 1] = starts[i] + parts[i].points.size();
+        pieces += parts[i].pieces.size();
     }
+    VisiblePieces result;
+    std::vector<std::uint32_t> numbers;
+    result.points = joined_points(parts, starts, numbers);
     result.pieces.reserve(pieces);
-    result.points.reserve(points);
-    PointNumbers numbers(result.points, points);
-    for (VisiblePieces& of_part : parts) {
-        const VisiblePieces part = std::move(of_part);
-        for (const VisiblePiece& piece : part.pieces)
-            add_piece(piece, part.points, numbers, result);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const VisiblePieces part = std::move(parts[i]);
+        const auto number = [&](std::uint32_t point) { return numbers[starts[i] + point]; };
+        for (VisiblePiece piece : part.pieces) {
+            piece.from = number(piece.from);
+            piece.to = number(piece.to);
+            result.pieces.push_back(piece);
+        }
         result.penetrating.insert(
             result.penetrating.end(), part.penetrating.begin(), part.penetrating.end());
     }

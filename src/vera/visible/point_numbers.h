@@ -9,6 +9,20 @@
 
 namespace vera {
 
+inline std::uint64_t hash_of(const RationalPoint& point) {
+    std::uint64_t hash = 0;
+    const auto mix = [&](std::uint64_t value) {
+        hash = (hash ^ value) * 0x9e3779b97f4a7c15U;
+        hash ^= hash >> 32U;
+    };
+    mix(static_cast<std::uint64_t>(point.whole.x) << 32U
+        | static_cast<std::uint32_t>(point.whole.y));
+    mix(static_cast<std::uint64_t>(point.x_numerator));
+    mix(static_cast<std::uint64_t>(point.y_numerator));
+    mix(static_cast<std::uint64_t>(point.denominator));
+    return hash;
+}
+
 /// Numbers points in the order in which they come, equal ones alike.
 class PointNumbers {
 public:
@@ -35,20 +49,6 @@ public:
 
 private:
     static constexpr std::uint32_t none = ~std::uint32_t{0};
-
-    static std::uint64_t hash_of(const RationalPoint& point) {
-        std::uint64_t hash = 0;
-        const auto mix = [&](std::uint64_t value) {
-            hash = (hash ^ value) * 0x9e3779b97f4a7c15U;
-            hash ^= hash >> 32U;
-        };
-        mix(static_cast<std::uint64_t>(point.whole.x) << 32U
-            | static_cast<std::uint32_t>(point.whole.y));
-        mix(static_cast<std::uint64_t>(point.x_numerator));
-        mix(static_cast<std::uint64_t>(point.y_numerator));
-        mix(static_cast<std::uint64_t>(point.denominator));
-        return hash;
-    }
 
     /// Of an equal point, or where it is to be put.
     std::size_t place_of(const RationalPoint& point) const {

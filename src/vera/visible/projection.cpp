@@ -4,6 +4,7 @@
 #include "vera/base/diagnostic.h"
 #include "vera/base/long_loop.h"
 #include "vera/visible/cut_polygon.h"
+#include "vera/visible/first_equal.h"
 #include "vera/visible/vertex_numbers.h"
 
 #include <algorithm>
@@ -114,6 +115,121 @@ void for_visible_part(
     visit(polygon.points());
 }
 
+constexpr std::size_t block = 4096; ///< facets, corners or triangles that a thread takes at a time
+
+/// What is seen of facets.
+class VisibleParts {
+public:
+    VisibleParts(
+        const Facets& facets, const CameraMap& map, double most_far, const CancelFlag* cancel)
+        : facets_(facets)
+        , is_parallel_(map.is_parallel())
+        , most_far_(most_far)
+        , cancel_(cancel)
+        , points_(facets.corners.size()) {
+        parallel_ranges(points_.size(), block, [&](std::size_t first, std::size_t last) {
+            stop_if_raised(cancel_);
+            for (std::size_t i = first; i < last; ++i)
+                points_[i] = map.image_point(facets_.corners[i]);
+        });
+    }
+
+    DepthRange depths() const;
+
+    /// Adds triangles that part them in fans, with the sources of the facets; returns the corners,
+    /// by whose places in the result the triangles name them.
+    std::vector<ScreenVertex> fans(
+        double nearest,
+        const Snap& snap,
+        std::span<const std::uint32_t> sources,
+        std::vector<ScreenTriangle>& triangles) const;
+
+private:
+    std::size_t blocks() const { return (facets_.triangles.size() + block - 1) / block; }
+
+    /// Calls visit(facet, points) for those of a block that are seen.
+    template <typename Visit>
+    void for_each(std::size_t number, double nearest, const Visit& visit) const {
+        stop_if_raised(cancel_);
+        const std::size_t end = std::min(facets_.triangles.size(), (number + 1) * block);
+        for (std::size_t i = number * block; i < end; ++i) {
+            const std::array<std::uint32_t, 3>& corners = facets_.triangles[i].corners;
+            for_visible_part(
+                {points_[corners[0]], points_[corners[1]], points_[corners[2]]},
+                nearest,
+                most_far_,
+                [&](std::span<const ImagePoint> part) {
+                    if (part.size() >= 3)
+                        visit(i, part);
+                });
+        }
+    }
+
+    const Facets& facets_;
+    bool is_parallel_;
+    double most_far_;
+    const CancelFlag* cancel_;
+    std::vector<ImagePoint> points_; ///< of the facets' corners
+};
+
+DepthRange VisibleParts::depths() const {
+    // What is so near that the rest would shrink to nothing is cut away.
+    double farthest = 0;
+    for (const ImagePoint& point : points_)
+        if (is_finite(point))
+            farthest = std::max(farthest, std::min(point.w, most_far_));
+    std::vector<DepthRange> of_blocks(blocks());
+    parallel_ranges(blocks(), 1, [&](std::size_t number, std::size_t) {
+        for_each(number, farthest * 0x1p-40, [&](std::size_t, std::span<const ImagePoint> part) {
+            for (const ImagePoint& point : part)
+                of_blocks[number].include(is_parallel_ ? point.depth : point.w);
+        });
+    });
+    DepthRange range;
+    for (const DepthRange& of_block : of_blocks) {
+        range.least = std::min(range.least, of_block.least);
+        range.most = std::max(range.most, of_block.most);
+    }
+    return range;
+}
+
+std::vector<ScreenVertex> VisibleParts::fans(
+    double nearest,
+    const Snap& snap,
+    std::span<const std::uint32_t> sources,
+    std::vector<ScreenTriangle>& triangles) const {
+    struct Start {
+        std::size_t corner = 0;
+        std::size_t triangle = 0;
+    };
+
+    std::vector<Start> starts(blocks() + 1);
+    starts[0].triangle = triangles.size();
+    parallel_ranges(blocks(), 1, [&](std::size_t number, std::size_t) {
+        for_each(number, nearest, [&](std::size_t, std::span<const ImagePoint> part) {
+            starts[number + 1].corner += part.size();
+            starts[number + 1].triangle += part.size() - 2;
+        });
+    });
+    for (std::size_t i = 1; i < starts.size(); ++i) {
+        starts[i].corner += starts[i - 1].corner;
+        starts[i].triangle += starts[i - 1].triangle;
+    }
+    std::vector<ScreenVertex> corners(starts.back().corner);
+    triangles.resize(starts.back().triangle);
+    parallel_ranges(blocks(), 1, [&](std::size_t number, std::size_t) {
+        auto [corner, triangle] = starts[number];
+        for_each(number, nearest, [&](std::size_t facet, std::span<const ImagePoint> part) {
+            const auto first = static_cast<std::uint32_t>(corner);
+            for (const ImagePoint& point : part)
+                corners[corner++] = snap.vertex(point);
+            for (std::uint32_t i = 2; i < part.size(); ++i)
+                triangles[triangle++] = {{first, first + i - 1, first + i}, sources[facet]};
+        });
+    });
+    return corners;
+}
+
 } // namespace
 
 CameraMap::CameraMap(const Camera& camera)
@@ -162,61 +278,33 @@ ScreenScene screen_scene(
     std::span<const std::uint32_t> sources,
     double most_far,
     const CancelFlag* cancel) {
-    std::vector<ImagePoint> points(facets.corners.size());
-    parallel_ranges(points.size(), 4096, [&](std::size_t first, std::size_t last) {
-        stop_if_raised(cancel);
-        for (std::size_t i = first; i < last; ++i)
-            points[i] = map.image_point(facets.corners[i]);
-    });
-    const auto corners_of_facet = [&](const Facets::Triangle& facet) {
-        return std::array<ImagePoint, 3>{
-            points[facet.corners[0]], points[facet.corners[1]], points[facet.corners[2]]};
-    };
-    // What is so near that the rest would shrink to nothing is cut away.
-    double farthest = 0;
-    for (const ImagePoint& point : points)
-        if (is_finite(point))
-            farthest = std::max(farthest, std::min(point.w, most_far));
-    Snap snap = {map.is_parallel(), {}};
-    const double tiny = farthest * 0x1p-40;
-    const LongLoop loop(facets.triangles.size(), {}, cancel);
-    for (std::size_t i = 0; i < facets.triangles.size(); ++i) {
-        loop.turn(i);
-        for_visible_part(
-            corners_of_facet(facets.triangles[i]),
-            tiny,
-            most_far,
-            [&](std::span<const ImagePoint> part) {
-                for (const ImagePoint& point : part)
-                    snap.range.include(map.is_parallel() ? point.depth : point.w);
-            });
-    }
+    const VisibleParts parts(facets, map, most_far, cancel);
+    Snap snap = {map.is_parallel(), parts.depths()};
     ScreenScene scene;
     if (!map.is_parallel() && snap.range.least < nearest_part * snap.range.most) {
         snap.range.least = nearest_part * snap.range.most;
         scene.cut_nearness = snap.range.least;
     }
     const double nearest = map.is_parallel() ? 0 : snap.range.least;
-
-    VertexNumbers numbers(scene.vertices);
-    for (std::size_t i = 0; i < facets.triangles.size(); ++i) {
-        loop.turn(i);
-        for_visible_part(
-            corners_of_facet(facets.triangles[i]),
-            nearest,
-            most_far,
-            [&](std::span<const ImagePoint> part) {
-                if (part.size() < 3)
-                    return;
-                const std::uint32_t first = numbers.number(snap.vertex(part[0]));
-                std::uint32_t last = numbers.number(snap.vertex(part[1]));
-                for (std::size_t j = 2; j < part.size(); ++j) {
-                    const std::uint32_t next = numbers.number(snap.vertex(part[j]));
-                    add_triangle(scene, {first, last, next}, sources[i]);
-                    last = next;
-                }
-            });
-    }
+    std::vector<ScreenVertex> corners = parts.fans(nearest, snap, sources, scene.triangles);
+    std::vector<std::uint32_t> numbers = first_equal(
+        corners.size(),
+        [&](std::size_t i) { return hash_of(corners[i]); },
+        [&](std::size_t i, std::size_t j) { return corners[i] == corners[j]; },
+        cancel);
+    const std::vector<std::uint32_t> firsts = number_consecutively(numbers);
+    scene.vertices.resize(firsts.size());
+    parallel_ranges(firsts.size(), block, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+            scene.vertices[i] = corners[firsts[i]];
+    });
+    parallel_ranges(scene.triangles.size(), block, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+            for (std::uint32_t& vertex : scene.triangles[i].vertices)
+                vertex = numbers[vertex];
+    });
+    stop_if_raised(cancel);
+    turn_to_left(scene);
     return scene;
 }
 

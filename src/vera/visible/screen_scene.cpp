@@ -4,6 +4,7 @@
 #include "vera/base/long_loop.h"
 
 #include <algorithm>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -44,7 +45,54 @@ bool turn_to_left(const ScreenScene& scene, std::array<std::uint32_t, 3>& vertic
     return area != 0;
 }
 
+struct Placed {
+    std::uint64_t code = 0;
+    std::uint32_t triangle = 0;
+};
+
+constexpr std::size_t code_parts = 4096;
+
+/// Which of the parts, in their order, the code is in.
+std::size_t code_part(std::uint64_t code) {
+    // The sums of three coordinates have 24 bits.
+    return static_cast<std::size_t>(code * code_parts >> 48U);
+}
+
+struct PartedByCode {
+    std::vector<Placed> triangles;
+    std::vector<std::size_t> starts; ///< of the parts, and the end
+};
+
+PartedByCode parted_by_code(const ScreenScene& scene) {
+    std::vector<Placed> placed(scene.triangles.size());
+    parallel_ranges(placed.size(), 4096, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+            placed[i] = {
+                morton_code(corners_of(scene, scene.triangles[i])), static_cast<std::uint32_t>(i)};
+    });
+    PartedByCode parted = {std::vector<Placed>(placed.size()), {}};
+    parted.starts.resize(code_parts + 2);
+    for (const Placed& one : placed)
+        ++parted.starts[code_part(one.code) + 2];
+    std::partial_sum(parted.starts.begin(), parted.starts.end(), parted.starts.begin());
+    // Each part grows from where the one before it ends, until it ends where the next begins.
+    for (const Placed& one : placed)
+        parted.triangles[parted.starts[code_part(one.code) + 1]++] = one;
+    return parted;
+}
+
 } // namespace
+
+void turn_to_left(ScreenScene& scene) {
+    for (ScreenTriangle& triangle : scene.triangles) {
+        if (!turn_to_left(scene, triangle.vertices))
+            triangle.source = no_source;
+        triangle.plane = triangle.vertices;
+    }
+    std::erase_if(scene.triangles, [](const ScreenTriangle& triangle) {
+        return triangle.source == no_source;
+    });
+}
 
 void add_triangle(
     ScreenScene& scene,
@@ -65,14 +113,7 @@ void add_part(
 }
 
 void sort_by_place(ScreenScene& scene, const CancelFlag* cancel) {
-    struct Placed {
-        std::uint64_t code;
-        std::uint32_t triangle;
-    };
-
-    std::vector<Placed> order(scene.triangles.size());
-    for (std::uint32_t i = 0; i < order.size(); ++i)
-        order[i] = {morton_code(corners_of(scene, scene.triangles[i])), i};
+    PartedByCode parted = parted_by_code(scene);
     stop_if_raised(cancel);
     const auto key = [&](const Placed& placed) {
         const ScreenTriangle& triangle = scene.triangles[placed.triangle];
@@ -84,8 +125,15 @@ void sort_by_place(ScreenScene& scene, const CancelFlag* cancel) {
             triangle.light,
             placed.triangle);
     };
-    std::sort(order.begin(), order.end(), [&](const Placed& a, const Placed& b) {
-        return a.code != b.code ? a.code < b.code : key(a) < key(b);
+    std::vector<Placed>& order = parted.triangles;
+    parallel_ranges(code_parts, code_parts / 64, [&](std::size_t first, std::size_t last) {
+        stop_if_raised(cancel);
+        const auto place = [&](std::size_t part) {
+            return order.begin() + static_cast<std::ptrdiff_t>(parted.starts[part]);
+        };
+        std::sort(place(first), place(last), [&](const Placed& a, const Placed& b) {
+            return a.code != b.code ? a.code < b.code : key(a) < key(b);
+        });
     });
     stop_if_raised(cancel);
     // Of surfaces between the same vertices the first of the text alone is seen.
@@ -93,31 +141,38 @@ void sort_by_place(ScreenScene& scene, const CancelFlag* cancel) {
         std::unique(order.begin(), order.end(), [&](const Placed& a, const Placed& b) {
             const ScreenTriangle& one = scene.triangles[a.triangle];
             const ScreenTriangle& other = scene.triangles[b.triangle];
-            return sorted(one.vertices) == sorted(other.vertices) && one.light == other.light
-                && (!one.is_shadow() || one.source == other.source);
+            return a.code == b.code && sorted(one.vertices) == sorted(other.vertices)
+                && one.light == other.light && (!one.is_shadow() || one.source == other.source);
         });
     order.erase(duplicates, order.end());
 
+    std::vector<ScreenTriangle> triangles(order.size());
+    parallel_ranges(order.size(), 4096, [&](std::size_t first, std::size_t last) {
+        stop_if_raised(cancel);
+        for (std::size_t place = first; place < last; ++place)
+            triangles[place] = scene.triangles[order[place].triangle];
+    });
     constexpr std::uint32_t unused = ~std::uint32_t{0};
     std::vector<std::uint32_t> numbers(scene.vertices.size(), unused);
-    std::vector<ScreenVertex> vertices;
-    std::vector<ScreenTriangle> triangles;
-    vertices.reserve(scene.vertices.size());
-    triangles.reserve(scene.triangles.size());
+    std::vector<std::uint32_t> used;
+    used.reserve(scene.vertices.size());
     const LongLoop loop(order.size(), {}, cancel);
     for (std::size_t place = 0; place < order.size(); ++place) {
         loop.turn(place);
-        ScreenTriangle triangle = scene.triangles[order[place].triangle];
-        for (std::array<std::uint32_t, 3>* corners : {&triangle.vertices, &triangle.plane})
+        for (auto* corners : {&triangles[place].vertices, &triangles[place].plane})
             for (std::uint32_t& vertex : *corners) {
                 if (numbers[vertex] == unused) {
-                    numbers[vertex] = static_cast<std::uint32_t>(vertices.size());
-                    vertices.push_back(scene.vertices[vertex]);
+                    numbers[vertex] = static_cast<std::uint32_t>(used.size());
+                    used.push_back(vertex);
                 }
                 vertex = numbers[vertex];
             }
-        triangles.push_back(triangle);
     }
+    std::vector<ScreenVertex> vertices(used.size());
+    parallel_ranges(used.size(), 4096, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+            vertices[i] = scene.vertices[used[i]];
+    });
     scene.vertices = std::move(vertices);
     scene.triangles = std::move(triangles);
 }

@@ -88,6 +88,10 @@ void add_part(
     const ScreenTriangle& of,
     std::uint32_t light = no_light);
 
+/// Turns the corners of triangles that have them in any order to the left, lets each span its own
+/// plane, and leaves out those without an area.
+void turn_to_left(ScreenScene& scene);
+
 /// Sorts the triangles along a curve that fills the picture (Morton 1966), and the vertices by who
 /// uses them first: neighbours then stand close together in memory. Of several surfaces between
 /// the same vertices one of the smallest source is left. Throws Cancelled.

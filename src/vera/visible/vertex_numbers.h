@@ -11,6 +11,14 @@
 
 namespace vera {
 
+inline std::uint64_t hash_of(const ScreenVertex& vertex) {
+    std::uint64_t hash = static_cast<std::uint64_t>(vertex.point.x) << 32U
+        | static_cast<std::uint32_t>(vertex.point.y);
+    hash = (hash ^ hash >> 29U) * 0x9e3779b97f4a7c15U;
+    hash = (hash ^ static_cast<std::uint64_t>(vertex.nearness)) * 0xbf58476d1ce4e5b9U;
+    return hash ^ hash >> 32U;
+}
+
 /// Numbers vertices, equal ones alike.
 class VertexNumbers {
 public:
@@ -36,11 +44,7 @@ private:
     static constexpr std::uint32_t none = ~std::uint32_t{0};
 
     std::size_t place_of(const ScreenVertex& vertex) const {
-        std::uint64_t hash = static_cast<std::uint64_t>(vertex.point.x) << 32U
-            | static_cast<std::uint32_t>(vertex.point.y);
-        hash = (hash ^ hash >> 29U) * 0x9e3779b97f4a7c15U;
-        hash = (hash ^ static_cast<std::uint64_t>(vertex.nearness)) * 0xbf58476d1ce4e5b9U;
-        std::size_t place = (hash ^ hash >> 32U) & (places_.size() - 1);
+        std::size_t place = hash_of(vertex) & (places_.size() - 1);
         while (places_[place] != none && vertices_[places_[place]] != vertex)
             place = (place + 1) & (places_.size() - 1);
         return place;

@@ -15,6 +15,8 @@ namespace {
 
 constexpr std::uint32_t none = ~std::uint32_t{0};
 
+constexpr std::size_t block = 4096; ///< vertices or pieces that a thread takes at a time
+
 /// The two ways along a piece: 2 i with, 2 i + 1 against its edge.
 class Ways {
 public:
@@ -69,11 +71,7 @@ struct Leaving {
     }
 };
 
-Leaving leaving_ways(
-    const Ways& ways,
-    std::size_t vertex_count,
-    const Progress& progress,
-    const CancelFlag* cancel) {
+Leaving leaving_ways(const Ways& ways, std::size_t vertex_count, const CancelFlag* cancel) {
     Leaving leaving;
     leaving.starts.resize(vertex_count + 1);
     for (std::uint32_t way = 0; way < ways.count(); ++way)
@@ -83,14 +81,15 @@ Leaving leaving_ways(
     std::vector<std::uint32_t> next(leaving.starts.begin(), leaving.starts.end() - 1);
     for (std::uint32_t way = 0; way < ways.count(); ++way)
         leaving.ways[next[ways.from(way)]++] = way;
-    const LongLoop loop(vertex_count, progress, cancel);
-    for (std::size_t vertex = 0; vertex < vertex_count; ++vertex) {
-        loop.turn(vertex);
-        const std::span<std::uint32_t> here = leaving.of(vertex);
-        std::sort(here.begin(), here.end(), [&](std::uint32_t a, std::uint32_t b) {
-            return turns_before(ways.direction(a), ways.direction(b));
-        });
-    }
+    parallel_ranges(vertex_count, block, [&](std::size_t first, std::size_t last) {
+        stop_if_raised(cancel);
+        for (std::size_t vertex = first; vertex < last; ++vertex) {
+            const std::span<std::uint32_t> here = leaving.of(vertex);
+            std::sort(here.begin(), here.end(), [&](std::uint32_t a, std::uint32_t b) {
+                return turns_before(ways.direction(a), ways.direction(b));
+            });
+        }
+    });
     return leaving;
 }
 
@@ -98,7 +97,20 @@ Leaving leaving_ways(
 struct Loose {
     std::vector<std::uint32_t> ends;
     std::vector<std::uint32_t> begins;
+
+    void add(std::uint32_t end, std::uint32_t begin) {
+        ends.push_back(end);
+        begins.push_back(begin);
+    }
 };
+
+Loose joined(std::span<const Loose> parts) {
+    Loose all;
+    for (const Loose& part : parts)
+        for (std::size_t i = 0; i < part.ends.size(); ++i)
+            all.add(part.ends[i], part.begins[i]);
+    return all;
+}
 
 /// Joins each end to the nearest beginning of its region that is left. Those whose nearest is the
 /// nearest come first: none takes the one that belongs to another.
@@ -154,25 +166,27 @@ void join(
 /// of the way back.
 std::vector<std::uint32_t>
 following(const Ways& ways, const Progress& progress, const CancelFlag* cancel, VisibleMap& map) {
-    Leaving leaving =
-        leaving_ways(ways, map.vertices.size(), progress_part(progress, 0, 2), cancel);
+    StageProgress stages(progress, 2);
+    stages.next(1);
+    Leaving leaving = leaving_ways(ways, map.vertices.size(), cancel);
+    stages.next(1);
     std::vector<std::uint32_t> result(ways.count());
-    Loose loose;
-    const LongLoop loop(map.vertices.size(), progress_part(progress, 1, 2), cancel);
-    for (std::size_t vertex = 0; vertex < map.vertices.size(); ++vertex) {
-        loop.turn(vertex);
-        const std::span<const std::uint32_t> here = leaving.of(vertex);
-        for (std::size_t i = 0; i < here.size(); ++i) {
-            const std::uint32_t coming = here[i] ^ 1U;
-            const std::uint32_t going = here[i == 0 ? here.size() - 1 : i - 1];
-            result[coming] = going;
-            if (ways.region[coming] != ways.region[going]) {
-                loose.ends.push_back(coming);
-                loose.begins.push_back(going);
+    std::vector<Loose> loose((map.vertices.size() + block - 1) / block);
+    parallel_ranges(loose.size(), 1, [&](std::size_t number, std::size_t) {
+        stop_if_raised(cancel);
+        const std::size_t end = std::min(map.vertices.size(), (number + 1) * block);
+        for (std::size_t vertex = number * block; vertex < end; ++vertex) {
+            const std::span<const std::uint32_t> here = leaving.of(vertex);
+            for (std::size_t i = 0; i < here.size(); ++i) {
+                const std::uint32_t coming = here[i] ^ 1U;
+                const std::uint32_t going = here[i == 0 ? here.size() - 1 : i - 1];
+                result[coming] = going;
+                if (ways.region[coming] != ways.region[going])
+                    loose[number].add(coming, going);
             }
         }
-    }
-    join(std::move(loose), ways, cancel, result, map);
+    });
+    join(joined(loose), ways, cancel, result, map);
     return result;
 }
 
@@ -235,27 +249,30 @@ Ways ways_of(
     VisibleMap& map) {
     StageProgress stages(progress, 2);
     Ways ways(scene, pieces);
-    // Calls visit(way, region) for the ways with one on their left.
-    const auto for_each_region = [&](const auto& visit) {
-        const LongLoop loop(pieces.size(), stages.next(1), cancel);
-        for (std::size_t i = 0; i < pieces.size(); ++i) {
-            loop.turn(i);
-            const VisiblePiece& piece = pieces[i];
-            if (piece.left != no_triangle)
-                visit(
-                    2 * i,
-                    VisibleMap::Region{scene.triangles[piece.left].source, piece.left_unlit});
-            if (piece.right != no_triangle)
-                visit(
-                    2 * i + 1,
-                    VisibleMap::Region{scene.triangles[piece.right].source, piece.right_unlit});
-        }
+    // Calls visit(way, region) for the ways of the piece with one on their left.
+    const auto for_each_region = [&](std::size_t i, const auto& visit) {
+        const VisiblePiece& piece = pieces[i];
+        if (piece.left != no_triangle)
+            visit(2 * i, VisibleMap::Region{scene.triangles[piece.left].source, piece.left_unlit});
+        if (piece.right != no_triangle)
+            visit(
+                2 * i + 1,
+                VisibleMap::Region{scene.triangles[piece.right].source, piece.right_unlit});
     };
     RegionNumbers regions;
-    for_each_region([&](std::size_t, VisibleMap::Region region) { regions.add(region); });
+    const LongLoop loop(pieces.size(), stages.next(1), cancel);
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        loop.turn(i);
+        for_each_region(i, [&](std::size_t, VisibleMap::Region region) { regions.add(region); });
+    }
     map.regions = regions.numbered();
-    for_each_region([&](std::size_t way, VisibleMap::Region region) {
-        ways.region[way] = regions.number(region);
+    stages.next(1);
+    parallel_ranges(pieces.size(), block, [&](std::size_t first, std::size_t last) {
+        stop_if_raised(cancel);
+        for (std::size_t i = first; i < last; ++i)
+            for_each_region(i, [&](std::size_t way, VisibleMap::Region region) {
+                ways.region[way] = regions.number(region);
+            });
     });
     return ways;
 }
