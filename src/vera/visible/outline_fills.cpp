@@ -96,6 +96,20 @@ void add_shaded(
         std::back_inserter(drawing.fills));
 }
 
+std::vector<DrawingColor> colors_of(
+    const FillSources& sources,
+    const RegionOutlines& regions,
+    const Progress& progress,
+    const CancelFlag* cancel) {
+    std::vector<DrawingColor> colors(regions.count());
+    const LongLoop loop(regions.count(), progress, cancel, 256);
+    for (std::size_t i = 0; i < regions.count(); ++i) {
+        loop.turn(i);
+        colors[i] = region_color(sources, regions.rings(i));
+    }
+    return colors;
+}
+
 /// The outlines in one colour each, on underlays.
 void add_flat(
     const FillSources& sources,
@@ -106,17 +120,18 @@ void add_flat(
     StageProgress stages(progress, 10);
     OutlineNames names(sources.scene);
     const std::vector<bool> is_covering_whole = covering_whole(regions, stages.next(1), cancel);
+    const std::vector<DrawingColor> colors = colors_of(sources, regions, stages.next(2), cancel);
     std::vector<FilledOutline> fills;
     fills.reserve(regions.count());
-    const LongLoop loop(regions.count(), stages.next(5), cancel, 256);
+    const LongLoop loop(regions.count(), stages.next(3), cancel, 256);
     for (std::size_t i = 0; i < regions.count(); ++i) {
         loop.turn(i);
         PaintedRegion region;
-        region.outline.color = region_color(sources, regions.rings(i));
+        region.outline.color = colors[i];
         names.name(
             sources.facets.triangles[facet_of(sources, regions, i)].primitive, region.outline);
         region.rings = regions.borders(i);
-        cover_seams(regions, is_covering_whole, i, region);
+        cover_seams(regions, is_covering_whole, colors, i, region);
         add_rings(region, regions.curves().all());
         fills.push_back(std::move(region.outline));
     }

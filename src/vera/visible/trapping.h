@@ -4,10 +4,12 @@
 #pragma once
 
 #include "vera/base/parallel.h"
+#include "vera/drawing/drawing.h"
 #include "vera/visible/region_outlines.h"
 #include "vera/visible/region_paint.h"
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace vera {
@@ -20,11 +22,13 @@ std::vector<bool> covering_whole(
     const CancelFlag* cancel = nullptr);
 
 /// Lets the region of that number, painted, which has its rings, go on below those beside it that
-/// are painted later: below all of those that are covering whole, which moves no silhouette; below
-/// the others as a seam.
+/// are painted later: below all of those that are covering whole, which moves no silhouette, or,
+/// where that would mix another colour into what lies beyond them, close to the common border;
+/// below the others as a seam. The colours are those of all regions.
 void cover_seams(
     const RegionOutlines& regions,
     const std::vector<bool>& is_covering_whole,
+    std::span<const DrawingColor> colors,
     std::size_t number,
     PaintedRegion& region);
 
