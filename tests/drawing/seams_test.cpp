@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/drawing/seams.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 namespace vera::detail {
@@ -57,6 +59,20 @@ TEST(DrawEndsBack, ShortensSeamsThatWouldStickOut) {
         EXPECT_EQ(lines[0].points, (std::vector<SnappedPoint>{{0, 100}, {0, back}}))
             << direction.x << ' ' << direction.y;
     }
+}
+
+TEST(DrawEndsBack, GoesByTheTangentWhereTheBorderGoesOnInAnArc) {
+    const DrawingEllipse circle = {{0, 50}, {50, 0}, {0, 50}};
+    FilledOutline fill = {
+        .rings = {{{0, 0}, {50, 50}, {200, 300}, {200, 100}, {0, 100}}},
+        .arcs = {{{0, circle, -90, 0}}},
+        .seams = {{{0, 100}, {0, 0}}}};
+    EXPECT_EQ(lines_of(fill, 20)[0].points.back(), (SnappedPoint{0, 0})); // square
+    std::reverse(fill.rings[0].begin(), fill.rings[0].end());
+    fill.arcs = {{{3, circle, 0, -90}}};
+    EXPECT_EQ(lines_of(fill, 20)[0].points.back(), (SnappedPoint{0, 0}));
+    fill.arcs.clear();
+    EXPECT_EQ(lines_of(fill, 20)[0].points.back(), (SnappedPoint{0, 10}));
 }
 
 TEST(DrawEndsBack, TakesLessOffWhereAnotherSeamPasses) {

@@ -201,7 +201,7 @@ struct SvgArc {
     DrawingPoint to;
 };
 
-std::vector<SvgArc> svg_arcs(const std::string& text) {
+std::vector<double> numbers_of(const std::string& text) {
     std::vector<double> numbers;
     std::string digits;
     for (const char letter : text + ' ') {
@@ -214,6 +214,11 @@ std::vector<SvgArc> svg_arcs(const std::string& text) {
         if (std::isdigit(letter) || letter == '-' || letter == '.')
             digits += letter;
     }
+    return numbers;
+}
+
+std::vector<SvgArc> svg_arcs(const std::string& text) {
+    const std::vector<double> numbers = numbers_of(text);
     std::vector<SvgArc> arcs;
     DrawingPoint at = {numbers[0], numbers[1]};
     for (std::size_t i = 2; i + 6 < numbers.size(); i += 7) {
@@ -254,12 +259,12 @@ TEST(SvgPathData, HasArcsThatLieOnTheirEllipse) {
     const double sizes[] = {3, 20, 20.001, 150};
     for (int round = 0; round < 2000; ++round) {
         const double a = sizes[random() % 4];
-        const double b = std::min(a, sizes[random() % 4]);
+        const double b = std::max(a / 4, std::min(a, sizes[random() % 4])); // no flatter ones
         const double turn = 15 * static_cast<double>(random() % 24);
         const DrawingPoint to = {
             std::cos(turn * 3.14159265358979 / 180), std::sin(turn * 3.14159265358979 / 180)};
         const DrawingEllipse ellipse = {{50, 40}, {a * to.x, a * to.y}, {-b * to.y, b * to.x}};
-        const double sweep = (10 + static_cast<double>(random() % 351)) * (round % 2 * 2 - 1);
+        const double sweep = (60 + static_cast<double>(random() % 301)) * (round % 2 * 2 - 1);
         const DrawingArc arc = {0, ellipse, turn / 2, turn / 2 + sweep};
         const Lattice lattice(0.01);
         const auto line = snapped_line(
@@ -272,8 +277,8 @@ TEST(SvgPathData, HasArcsThatLieOnTheirEllipse) {
         ASSERT_EQ(arcs.size(), count) << round;
         for (std::size_t i = 0; i < count; ++i) {
             const double at = (static_cast<double>(i) + 0.5) / static_cast<double>(count);
-            // Rounding moves each end, and the center by as much again; along flat ellipses by
-            // more.
+            // Rounding moves each end, and the center by as much again; along ellipses that are
+            // longer than wide by more.
             const DrawingPoint middle = middle_of(arcs[i]);
             const double off =
                 distance(middle, point_at(ellipse, nearest_degrees(ellipse, middle)));
@@ -284,6 +289,88 @@ TEST(SvgPathData, HasArcsThatLieOnTheirEllipse) {
             EXPECT_EQ(arcs[i].large, 0);
         }
     }
+}
+
+/// A point of the Bezier curve with these control points, after one of lower degree.
+DrawingPoint point_of_curve(std::vector<DrawingPoint> controls, double part) {
+    while (controls.size() > 1) {
+        for (std::size_t i = 0; i + 1 < controls.size(); ++i)
+            controls[i] = {
+                controls[i].x + part * (controls[i + 1].x - controls[i].x),
+                controls[i].y + part * (controls[i + 1].y - controls[i].y)};
+        controls.pop_back();
+    }
+    return controls.front();
+}
+
+TEST(SvgPathData, HasCurvesForShortAndForFlatArcs) {
+    std::mt19937 random(1989);
+    const double sizes[] = {0.02, 0.5, 3, 20, 150};
+    int short_ones = 0;
+    for (int round = 0; round < 2000; ++round) {
+        const double a = sizes[1 + random() % 4];
+        const bool is_short = round % 2 == 0;
+        const double b = is_short ? std::min(a, sizes[random() % 5]) : a / 5;
+        const double turn = 15 * static_cast<double>(random() % 24);
+        const DrawingPoint to = {
+            std::cos(turn * 3.14159265358979 / 180), std::sin(turn * 3.14159265358979 / 180)};
+        const DrawingEllipse ellipse = {{50, 40}, {a * to.x, a * to.y}, {-b * to.y, b * to.x}};
+        const double sweep = (is_short ? 1 + static_cast<double>(random() % 14)
+                                       : 20 + static_cast<double>(random() % 341))
+            * (random() % 2 == 0 ? 1 : -1);
+        const double begin = static_cast<double>(random() % 360);
+        const DrawingArc arc = {0, ellipse, begin, begin + sweep};
+        const auto line = snapped_line(
+            {.points = {point_at(ellipse, begin), point_at(ellipse, begin + sweep)}, .arcs = {arc}},
+            Lattice(0.01));
+        if (!line)
+            continue;
+        const std::string text = svg_path_data({&*line, 1}, 2);
+        ASSERT_EQ(text.find('a'), std::string::npos) << text;
+        const bool is_quadratic = text.find('q') != std::string::npos;
+        short_ones += is_quadratic ? 1 : 0;
+        const std::size_t degree = is_quadratic ? 2 : 3;
+        const std::vector<double> numbers = numbers_of(text);
+        DrawingPoint at = {numbers[0], numbers[1]};
+        for (std::size_t i = 2; i < numbers.size(); i += 2 * degree) {
+            std::vector<DrawingPoint> controls = {at};
+            for (std::size_t j = 0; j < degree; ++j)
+                controls.push_back({at.x + numbers[i + 2 * j], at.y + numbers[i + 2 * j + 1]});
+            for (const double part : {0.2, 0.5, 0.7}) {
+                const DrawingPoint on = point_of_curve(controls, part);
+                // Half a unit, and what rounding does to ends and control points.
+                EXPECT_LE(distance(on, point_at(ellipse, nearest_degrees(ellipse, on))), 0.0125)
+                    << round << ' ' << text;
+            }
+            at = controls.back();
+        }
+        EXPECT_LE(distance(at, point_at(ellipse, begin + sweep)), 0.0072) << round;
+    }
+    EXPECT_GT(short_ones, 500);
+}
+
+TEST(SnappedRings, KeepArcsThatAreNotStraight) {
+    const DrawingEllipse circle = {{10, 10}, {5, 0}, {0, 5}};
+    FilledOutline slice;
+    slice.rings = {{{10, 10}, {15, 10}, {10, 15}}, {{20, 0}, {21, 0}, {20, 1}}, {{15, 10}}};
+    slice.arcs = {{{1, circle, 0, 90}}, {}, {{0, circle, 0, 360}}};
+    const auto rings = snapped_rings(slice, Lattice(0.01));
+    ASSERT_EQ(rings.size(), 3U);
+    EXPECT_EQ(rings[0].arcs.size(), 1U);
+    EXPECT_EQ(rings[1].arcs.size(), 0U);
+    EXPECT_EQ(rings[2].points.size(), 1U);
+    EXPECT_EQ(
+        svg_path_data(rings, 0),
+        "m1000 1000h500a500 500 0 0 1-500 500z"
+        "m1000-1000h100l-100 100zm-500 1000"
+        "a500 500 0 0 1-500 500 500 500 0 0 1-500-500 500 500 0 0 1 500-500 500 500 0 0 1 500 "
+        "500z");
+    // One that is off its chord by less than half a unit.
+    const DrawingPoint end = point_at(circle, 4);
+    slice.rings = {{{10, 10}, {15, 10}, end}};
+    slice.arcs = {{{1, circle, 0, 4}}};
+    EXPECT_EQ(snapped_rings(slice, Lattice(0.01)).at(0).arcs.size(), 0U);
+    EXPECT_EQ(snapped_rings(slice, Lattice(0.001)).at(0).arcs.size(), 1U);
 }
 
 TEST(SvgPathData, WritesAnArcBetweenLines) {

@@ -20,8 +20,8 @@ int turns_about(const VisibleMap& map, const CoveredAreas::Outline& outline, dou
     int turns = 0;
     for (const std::vector<std::uint32_t>& way : outline)
         for (std::size_t i = 0; i < way.size(); ++i) {
-            const RationalPoint& a = map.vertices[way[i]];
-            const RationalPoint& b = map.vertices[way[(i + 1) % way.size()]];
+            const RationalPoint& a = map.vertices[map.ring_vertices[way[i]]];
+            const RationalPoint& b = map.vertices[map.ring_vertices[way[(i + 1) % way.size()]]];
             const double side = (b.x() - a.x()) * (y - a.y()) - (b.y() - a.y()) * (x - a.x());
             if (a.y() <= y && b.y() > y && side > 0)
                 ++turns;

@@ -5,6 +5,7 @@
 #include "vera/base/parallel.h"
 #include "vera/visible/covered_areas.h"
 #include "vera/visible/draw_scene.h"
+#include "vera/visible/drawn_borders.h"
 #include "vera/visible/hidden_parts.h"
 #include "vera/visible/map_check.h"
 #include "vera/visible/map_raster.h"
@@ -81,6 +82,24 @@ std::vector<DrawSettings> all_settings(const Sample& sample, const RayIndex& ind
     return all;
 }
 
+/// The curved borders of the sample's areas.
+DrawnBorders borders_of(const Sample& sample, const CancelFlag* cancel) {
+    constexpr double deviation = 0.5;
+    const CameraMap camera_map(sample.camera);
+    const Facets all = facets(sample.scene, [&](Vec3 point) {
+        return deviation
+            * camera_map.size_of_pixel(sample.picture.width, sample.picture.height, point);
+    });
+    const DrawnFaces faces = drawn_faces(sample.scene, all, FaceUnit::plane, sample.camera);
+    ScreenScene screen = screen_scene(all, camera_map, faces.of_facet);
+    sort_by_place(screen);
+    const VisibleMap map = visible_map(screen, whole_pieces(screen).pieces);
+    return curved_borders(
+        {sample.scene, sample.camera, camera_map, sample.picture, all, faces, map, deviation},
+        {},
+        cancel);
+}
+
 TEST(DrawScene, TellsHowFarItIsAndNeverGoesBack) {
     const ThreadLimit one(1);
     const Sample sample;
@@ -137,7 +156,7 @@ TEST(DrawScene, EveryStageEndsThatIsTooLongToWaitFor) {
     ScreenScene screen = testing::scattered(1, some, screen_size / 100);
     const VisiblePieces pieces = cell_raster(screen);
     const VisibleMap map = visible_map(screen, pieces);
-    const RegionOutlines regions(map, {});
+    const RegionOutlines regions(map, straight_borders(map, {}));
     const std::vector<FilledOutline> fills(regions.count());
     const ScreenEdges edges = screen_edges(screen);
     std::vector<std::uint32_t> drawn(edges.edges.size());
@@ -166,6 +185,7 @@ TEST(DrawScene, EveryStageEndsThatIsTooLongToWaitFor) {
         [&] { cut_penetrations(screen, std::vector(1, std::pair(0U, 1U)), &raised); },
         [&] { visible_map(screen, pieces, {}, &raised); },
         [&] { covered_areas(map, {}, &raised); },
+        [&] { borders_of(sample, &raised); },
         [&] { covering_whole(regions, {}, &raised); },
         [&] { underlays(regions, fills, {}, &raised); },
         [&] { hidden_parts(screen, edges, drawn, pieces, {}, {}, &raised); },
@@ -180,7 +200,7 @@ TEST(DrawScene, LongLoopsOfTheMapAndOfAreasLookAgainAndAgain) {
     const ScreenScene screen = testing::scattered(1, some, screen_size / 100);
     const VisiblePieces pieces = cell_raster(screen);
     const VisibleMap map = visible_map(screen, pieces);
-    const RegionOutlines regions(map, {});
+    const RegionOutlines regions(map, straight_borders(map, {}));
     const std::vector<FilledOutline> fills(regions.count());
     const ScreenEdges edges = screen_edges(screen);
     std::vector<std::uint32_t> drawn(edges.edges.size());

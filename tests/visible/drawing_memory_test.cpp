@@ -15,11 +15,13 @@
 #include <atomic>
 #include <cstdlib>
 #include <new>
+#include <random>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "base/memory_is_watched.h"
+#include "scene/make_scene.h"
 #include "visible/screen_scenes.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -222,8 +224,24 @@ TEST(DrawingMemory, TheRasterTakesWhatIsForetold) {
 }
 
 /// The triangles in space, each a primitive, as a camera of parallel rays sees them on the screen.
-Scene in_space(const ScreenScene& screen, Camera& camera) {
+struct SceneInView {
     Scene scene;
+    Camera camera;
+};
+
+SceneInView unit_cube_in_view() {
+    SceneInView view;
+    view.camera.projection = Camera::Projection::parallel;
+    view.camera.direction = {0, 0, -1};
+    view.camera.lower_left = {0, 0, 2};
+    view.camera.lower_right = {1, 0, 2};
+    view.camera.upper_left = {0, 1, 2};
+    return view;
+}
+
+SceneInView in_space(const ScreenScene& screen) {
+    SceneInView view = unit_cube_in_view();
+    Scene& scene = view.scene;
     scene.lights.resize(1);
     scene.lights[0].position = {0.2, 0.9, 3};
     for (const ScreenTriangle& triangle : screen.triangles) {
@@ -242,12 +260,20 @@ Scene in_space(const ScreenScene& screen, Camera& camera) {
         scene.geometry.items.push_back(item);
     }
     number_primitives(scene);
-    camera.projection = Camera::Projection::parallel;
-    camera.direction = {0, 0, -1};
-    camera.lower_left = {0, 0, 2};
-    camera.lower_right = {1, 0, 2};
-    camera.upper_left = {0, 1, 2};
-    return scene;
+    return view;
+}
+
+/// Whose outlines are arcs.
+SceneInView spheres(std::size_t count) {
+    SceneInView view = unit_cube_in_view();
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> any(0, 1);
+    for (std::size_t i = 0; i < count; ++i) {
+        const Vec3 center = {any(random), any(random), any(random)};
+        test::add(view.scene.geometry, Sphere{center, 0.02 + 0.08 * any(random)});
+    }
+    number_primitives(view.scene);
+    return view;
 }
 
 TEST(DrawingMemory, ADrawingTakesWhatIsForetold) {
@@ -257,17 +283,17 @@ TEST(DrawingMemory, ADrawingTakesWhatIsForetold) {
     PictureSettings picture;
     picture.width = picture.height = 800;
     picture.shadows = false;
-    const ScreenScene screens[] = {
-        testing::scattered(1, 15'000, screen_size / 80),
-        testing::scattered(1, 30'000, screen_size / 400),
-        testing::terrain(1, 90),
-        testing::balls(1, 20, 24)};
-    for (const ScreenScene& screen : screens) {
-        Camera camera;
-        const Scene scene = in_space(screen, camera);
+    const SceneInView views[] = {
+        in_space(testing::scattered(1, 15'000, screen_size / 80)),
+        in_space(testing::scattered(1, 30'000, screen_size / 400)),
+        in_space(testing::terrain(1, 90)),
+        in_space(testing::balls(1, 20, 24)),
+        spheres(20)};
+    for (const auto& [scene, camera] : views) {
+        const double deviation = DrawSettings().deviation / picture.width;
         // What there is when the forecast is made.
         const long before = bytes;
-        const Facets all = facets(scene, [](Vec3) { return 0.1; });
+        const Facets all = facets(scene, [&](Vec3) { return deviation; });
         const DrawnFaces faces = drawn_faces(scene, all, FaceUnit::plane, camera);
         ScreenScene on_screen = screen_scene(all, CameraMap(camera), faces.of_facet);
         sort_by_place(on_screen);
@@ -370,8 +396,7 @@ TEST(DrawingMemory, ShadowsAreRefusedBeforeTheyAreThrown) {
 
 TEST(DrawingMemory, WhereItRunsOutTheDrawingEndsAndLeavesNothing) {
     const ThreadLimit one(1);
-    Camera camera;
-    const Scene scene = in_space(testing::tangle(1, 12, 4), camera);
+    const auto [scene, camera] = in_space(testing::tangle(1, 12, 4));
     for (const DrawingStyle style :
          {DrawingStyle::shaded, DrawingStyle::hidden_lines, DrawingStyle::toon}) {
         const auto draw = [&] {

@@ -41,13 +41,13 @@ std::vector<Side> random_sides(std::mt19937& random) {
 }
 
 /// The squares' area as the ways round it: with holes, and with parts that touch in corners.
-std::vector<PointChain> random_board(std::mt19937& random) {
+std::vector<BorderRing> random_board(std::mt19937& random) {
     std::vector<Side> sides = random_sides(random);
-    std::vector<PointChain> rings;
+    std::vector<BorderRing> rings;
     for (Side& start : sides) {
         if (start.used)
             continue;
-        PointChain& ring = rings.emplace_back();
+        BorderRing& ring = rings.emplace_back();
         for (Side* side = &start; side != nullptr;) {
             side->used = true;
             ring.push_back({static_cast<double>(side->x), static_cast<double>(side->y)});
@@ -67,7 +67,7 @@ TEST(HalfPlane, CutsAreasIntoTwoThatMakeUpTheWhole) {
     const double values[] = {-2, -1, -0.5, 0, 0.5, 1, 2};
     const auto value = [&] { return values[random() % std::size(values)]; };
     for (int round = 0; round < 3000; ++round) {
-        const std::vector<PointChain> rings = random_board(random);
+        const std::vector<BorderRing> rings = random_board(random);
         const HalfPlane half = {{value(), value()}, 4 * value()};
         const HalfPlane rest = {{-half.normal.x, -half.normal.y}, -half.reach};
         const auto inside = cut_rings(rings, half);
@@ -92,10 +92,25 @@ TEST(HalfPlane, CutsAreasIntoTwoThatMakeUpTheWhole) {
 
 TEST(HalfPlane, LeavesNoBridgesBetweenPartsOfARing) {
     // A U, of which a cut leaves both arms.
-    const std::vector<PointChain> rings = {
+    const std::vector<BorderRing> rings = {
         {{0, 0}, {5, 0}, {5, 4}, {4, 4}, {4, 1}, {1, 1}, {1, 4}, {0, 4}}};
     EXPECT_EQ(cut_rings(rings, {{0, -1}, -2}).size(), 2U);
     EXPECT_EQ(cut_rings(rings, {{0, 1}, 2}).size(), 1U);
+}
+
+TEST(HalfPlane, KeepsTheCurvesOfWhatIsLeftOfSides) {
+    const BorderRing ring = {{{0, 0}, 1}, {{4, 0}, 2}, {{4, 4}, 3, true}, {{0, 4}, no_curve}};
+    const auto inside = cut_rings({ring}, {{1, 0}, 2});
+    ASSERT_EQ(inside.size(), 1U);
+    std::vector<std::uint32_t> curves;
+    for (const BorderPoint& point : inside[0])
+        curves.push_back(point.curve);
+    // From where side 3 comes in: the rest of it, the side without a curve, side 1, and the cut.
+    EXPECT_EQ(curves, (std::vector<std::uint32_t>{3, no_curve, 1, no_curve}));
+    const auto along = cut_rings({ring}, {{0, 1}, 4}); // all of it
+    ASSERT_EQ(along.size(), 1U);
+    EXPECT_TRUE(along[0][2].is_node);
+    EXPECT_EQ(along[0][2].curve, 3U);
 }
 
 TEST(HalfPlane, CutsLinesIntoTheirParts) {
@@ -108,10 +123,10 @@ TEST(HalfPlane, CutsLinesIntoTheirParts) {
 
 TEST(SeamStrips, LieInTheNeighbourAndCloseToTheBorder) {
     // A quarter of a circle, and what is outside of it.
-    PointChain arc;
+    BorderRing arc;
     for (int i = 0; i <= 40; ++i)
         arc.push_back({50 * std::sin(i * 0.039), 50 - 50 * std::cos(i * 0.039)});
-    PointChain outside = arc;
+    BorderRing outside = arc;
     outside.push_back({100, 50});
     outside.push_back({100, -20});
     outside.push_back({0, -20});
@@ -133,11 +148,11 @@ TEST(SeamStrips, LieInTheNeighbourAndCloseToTheBorder) {
 }
 
 TEST(SeamStrips, ReachNoFartherThanAThinNeighbour) {
-    const std::vector<PointChain> thin = {{{0, 0}, {10, 0}, {10, 0.3}, {0, 0.3}}};
-    EXPECT_EQ(doubled_area(seam_strips(PointChain{{0, 0}, {10, 0}}, thin)), doubled_area(thin));
-    const std::vector<PointChain> other = {{{0, 5}, {10, 5}, {10, 6}, {0, 6}}};
-    EXPECT_TRUE(seam_strips(PointChain{{0, 0}, {10, 0}}, other).empty());
-    EXPECT_TRUE(seam_strips(PointChain{{0, 0}, {0, 0}}, thin).empty());
+    const std::vector<BorderRing> thin = {{{0, 0}, {10, 0}, {10, 0.3}, {0, 0.3}}};
+    EXPECT_EQ(doubled_area(seam_strips(BorderRing{{0, 0}, {10, 0}}, thin)), doubled_area(thin));
+    const std::vector<BorderRing> other = {{{0, 5}, {10, 5}, {10, 6}, {0, 6}}};
+    EXPECT_TRUE(seam_strips(BorderRing{{0, 0}, {10, 0}}, other).empty());
+    EXPECT_TRUE(seam_strips(BorderRing{{0, 0}, {0, 0}}, thin).empty());
 }
 
 } // namespace

@@ -1,41 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "visible/painted_color.h"
 
+#include "vera/drawing/elliptic_arc.h"
 #include "vera/drawing/gradient.h"
 
+#include <cmath>
 #include <cstddef>
 
 namespace vera::testing {
 
-int turns_about(const std::vector<PointChain>& rings, DrawingPoint point) {
-    int turns = 0;
-    for (const PointChain& ring : rings)
-        for (std::size_t i = 0; i < ring.size(); ++i) {
-            const DrawingPoint a = ring[i];
-            const DrawingPoint b = ring[i + 1 == ring.size() ? 0 : i + 1];
-            if ((a.y > point.y) == (b.y > point.y))
+std::vector<PointChain> flattened_rings(const FilledOutline& outline) {
+    std::vector<PointChain> rings;
+    for (std::size_t i = 0; i < outline.rings.size(); ++i) {
+        PointChain& ring = rings.emplace_back();
+        const std::vector<DrawingArc> none;
+        const std::vector<DrawingArc>& arcs = i < outline.arcs.size() ? outline.arcs[i] : none;
+        auto arc = arcs.begin();
+        for (std::size_t j = 0; j < outline.rings[i].size(); ++j) {
+            ring.push_back(outline.rings[i][j]);
+            if (arc == arcs.end() || arc->segment != j)
                 continue;
-            if (a.x + (point.y - a.y) / (b.y - a.y) * (b.x - a.x) > point.x)
-                turns += b.y > a.y ? 1 : -1;
+            const double sweep = arc->end_degrees - arc->begin_degrees;
+            const double parts = std::ceil(std::abs(sweep));
+            for (double part = 1; part < parts; ++part)
+                ring.push_back(point_at(arc->ellipse, arc->begin_degrees + part / parts * sweep));
+            ++arc;
         }
-    return turns;
-}
-
-double doubled_area(const std::vector<PointChain>& rings) {
-    double area = 0;
-    for (const PointChain& ring : rings)
-        for (std::size_t i = 0; i < ring.size(); ++i) {
-            const DrawingPoint a = ring[i];
-            const DrawingPoint b = ring[i + 1 == ring.size() ? 0 : i + 1];
-            area += a.x * b.y - a.y * b.x;
-        }
-    return area;
+    }
+    return rings;
 }
 
 std::optional<Color> painted_color(std::span<const FilledOutline> fills, DrawingPoint point) {
     for (std::size_t i = fills.size(); i-- > 0;) {
         const FilledOutline& fill = fills[i];
-        if (turns_about(fill.rings, point) == 0)
+        if (turns_about(flattened_rings(fill), point) == 0)
             continue;
         if (fill.gradient)
             return color_at(*fill.gradient, point);

@@ -224,14 +224,13 @@ TEST(ShadedOutlines, AreWithinTheToleranceOnRandomFacesInRandomLight) {
     for (int round = 0; round < 40; ++round) {
         const LitWall wall = lit_wall(random);
         const CameraMap map(wall.camera);
-        PointChain corners;
+        BorderRing corners;
         for (const Vec3& corner : wall.all.corners) {
             const ImagePoint seen = map.image_point(corner);
             corners.push_back({200 * seen.x / seen.w, 200 - 200 * seen.y / seen.w});
         }
         LitOutline lit;
-        lit.outline.rings = {corners};
-        lit.own_rings = 1;
+        lit.region.rings = {corners};
         // Without one of the lights now and then.
         lit.lights = round % 3 == 0 ? LightSet{1} : all_lights;
         const RegionLight light(wall.scene, wall.camera, wall.picture, wall.all, 0, lit.lights);
@@ -345,6 +344,7 @@ TEST(ShadedDrawing, DoesNotDependOnThreads) {
         ASSERT_EQ(more.size(), one.size());
         for (std::size_t i = 0; i < one.size(); ++i) {
             ASSERT_EQ(more[i].rings, one[i].rings) << i;
+            ASSERT_EQ(more[i].arcs, one[i].arcs) << i;
             ASSERT_EQ(more[i].gradient, one[i].gradient) << i;
             ASSERT_EQ(more[i].color, one[i].color) << i;
         }

@@ -54,6 +54,25 @@ struct Gradient {
     friend bool operator==(const Gradient&, const Gradient&) = default;
 };
 
+/// The points center + cos(a) major + sin(a) minor.
+struct DrawingEllipse {
+    DrawingPoint center = {};
+    DrawingPoint major = {}; ///< from the center to the farthest point
+    DrawingPoint minor = {}; ///< a quarter turn from major, from x towards y, and no longer
+
+    friend bool operator==(const DrawingEllipse&, const DrawingEllipse&) = default;
+};
+
+/// A part of an ellipse, from one angle to the other; backward where the end is the smaller one.
+struct DrawingArc {
+    std::size_t segment = 0; ///< of a line or ring: from the point of that number to the next
+    DrawingEllipse ellipse = {};
+    double begin_degrees = 0;
+    double end_degrees = 0; ///< at most a whole turn from the beginning
+
+    friend bool operator==(const DrawingArc&, const DrawingArc&) = default;
+};
+
 /// An area of one colour or gradient, of any number of parts and holes. Its rings are closed (the
 /// first point need not be repeated), and holes run against the rings around them, so that the
 /// nonzero and the even-odd rule see the same area.
@@ -66,28 +85,12 @@ struct FilledOutline {
     DrawingColor color = {};
     std::optional<Gradient> gradient = {}; ///< in place of the colour
     std::vector<std::vector<DrawingPoint>> rings = {};
+    /// Of each ring the arcs among its segments, as those of a closed Stroke; rings beyond the end
+    /// of this list have none.
+    std::vector<std::vector<DrawingArc>> arcs = {};
     /// The parts of the border beyond which an outline lies that is painted later. Points of the
     /// border, in its order; a part that goes on where the one before it ended is one with it.
     std::vector<std::vector<DrawingPoint>> seams = {};
-};
-
-/// The points center + cos(a) major + sin(a) minor.
-struct DrawingEllipse {
-    DrawingPoint center = {};
-    DrawingPoint major = {}; ///< from the center to the farthest point
-    DrawingPoint minor = {}; ///< a quarter turn from major, from x towards y, and no longer
-
-    friend bool operator==(const DrawingEllipse&, const DrawingEllipse&) = default;
-};
-
-/// A part of an ellipse, from one angle to the other; backward where the end is the smaller one.
-struct DrawingArc {
-    std::size_t segment = 0; ///< of a Stroke: it leads from the point of that number to the next
-    DrawingEllipse ellipse = {};
-    double begin_degrees = 0;
-    double end_degrees = 0; ///< at most a whole turn from the beginning
-
-    friend bool operator==(const DrawingArc&, const DrawingArc&) = default;
 };
 
 /// A line. Its class says why it is drawn and decides how. Its segments, from each point to the

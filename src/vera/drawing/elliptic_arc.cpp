@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace vera {
 
@@ -18,7 +19,7 @@ double length(DrawingPoint a) {
 
 /// The cosine and sine of the point's angle that is nearest in the first quarter of the ellipse
 /// with these axes, a >= b (Eberly, Distance from a point to an ellipse, an ellipsoid, or a
-/// hyperellipsoid, 2013): a root of a function that falls, by bisection.
+/// hyperellipsoid, 2013): a root of a function.
 DrawingPoint nearest_in_quarter(double a, double b, DrawingPoint point) {
     if (point.y == 0) {
         const double c = std::min(1.0, a > b ? a * point.x / (a * a - b * b) : 1);
@@ -27,16 +28,19 @@ DrawingPoint nearest_in_quarter(double a, double b, DrawingPoint point) {
     const double ratio = (a / b) * (a / b);
     const double x = point.x / a;
     const double y = point.y / b;
-    double low = y - 1;
-    double high = length({ratio * x, y}) - 1;
+    // The function of t + 1 is convex and falls, and is positive here: Newton's method never comes
+    // too far.
+    double t1 = y;
     for (int i = 0; i < 200; ++i) {
-        const double middle = (low + high) / 2;
-        if (middle == low || middle == high)
+        const double c = ratio * x / (t1 + (ratio - 1));
+        const double s = y / t1;
+        const double off = c * c + s * s - 1;
+        const double next = t1 + off / (2 * (c * c / (t1 + (ratio - 1)) + s * s / t1));
+        if (!(off > 0 && next > t1))
             break;
-        const double off = length({ratio * x / (middle + ratio), y / (middle + 1)});
-        (off > 1 ? low : high) = middle;
+        t1 = next;
     }
-    return {ratio * x / (low + ratio), y / (low + 1)};
+    return {ratio * x / (t1 + (ratio - 1)), y / t1};
 }
 
 } // namespace
@@ -69,6 +73,12 @@ DrawingPoint point_at(const DrawingEllipse& ellipse, double degrees) {
         ellipse.center.y + c * ellipse.major.y + s * ellipse.minor.y};
 }
 
+DrawingPoint tangent_at(const DrawingEllipse& ellipse, double degrees) {
+    const double c = cos_degrees(degrees);
+    const double s = sin_degrees(degrees);
+    return {c * ellipse.minor.x - s * ellipse.major.x, c * ellipse.minor.y - s * ellipse.major.y};
+}
+
 double nearest_degrees(const DrawingEllipse& ellipse, DrawingPoint point) {
     const double a = length(ellipse.major);
     const double b = length(ellipse.minor);
@@ -84,18 +94,39 @@ double distance(DrawingPoint a, DrawingPoint b) {
     return length({a.x - b.x, a.y - b.y});
 }
 
+double turned(double from, double to) {
+    constexpr double whole_turn = 360;
+    const double by = to - from;
+    return by - whole_turn * std::floor((by + whole_turn / 2) / whole_turn);
+}
+
 BezierControls bezier_controls(const DrawingEllipse& ellipse, double begin, double end) {
     const double quarter = (end - begin) / 4;
     const double reach = 4.0 / 3 * sin_degrees(quarter) / cos_degrees(quarter);
     const auto beside = [&](double degrees, double step) {
-        const double c = cos_degrees(degrees);
-        const double s = sin_degrees(degrees);
         const DrawingPoint at = point_at(ellipse, degrees);
-        return DrawingPoint{
-            at.x + step * (c * ellipse.minor.x - s * ellipse.major.x),
-            at.y + step * (c * ellipse.minor.y - s * ellipse.major.y)};
+        const DrawingPoint along = tangent_at(ellipse, degrees);
+        return DrawingPoint{at.x + step * along.x, at.y + step * along.y};
     };
     return {beside(begin, reach), beside(end, -reach)};
+}
+
+DrawingPoint quadratic_control(const DrawingArc& arc) {
+    const double half = (arc.end_degrees - arc.begin_degrees) / 2;
+    const double reach = sin_degrees(half) / cos_degrees(half);
+    const DrawingPoint at = point_at(arc.ellipse, arc.begin_degrees);
+    const DrawingPoint along = tangent_at(arc.ellipse, arc.begin_degrees);
+    return {at.x + reach * along.x, at.y + reach * along.y};
+}
+
+double quadratic_error(const DrawingArc& arc) {
+    const double half = std::abs(arc.end_degrees - arc.begin_degrees) / 2;
+    if (half >= 90)
+        return std::numeric_limits<double>::infinity();
+    // Of the unit circle, in the middle, where the curve is half way from its chord to its control
+    // point.
+    const double cosine = cos_degrees(half);
+    return length(arc.ellipse.major) * (1 - cosine) * (1 - cosine) / (2 * cosine);
 }
 
 int bezier_parts(const DrawingArc& arc, double error) {

@@ -3,7 +3,6 @@
 
 #include "vera/base/long_loop.h"
 #include "vera/base/progress_part.h"
-#include "vera/drawing/elliptic_arc.h"
 
 #include <cstdint>
 #include <iterator>
@@ -112,17 +111,10 @@ private:
         }
     }
 
-    /// As curves that lie no farther off it than half a unit.
     void write_arc(const DrawingArc& arc, SnappedPoint last) {
-        const int parts = bezier_parts(arc, 0.5);
-        const auto angle = [&](int part) {
-            return arc.begin_degrees + (arc.end_degrees - arc.begin_degrees) * part / parts;
-        };
-        for (int i = 0; i < parts; ++i) {
-            const auto [first, second] = bezier_controls(arc.ellipse, angle(i), angle(i + 1));
-            write_point(rounded_point(first));
-            write_point(rounded_point(second));
-            write_point(i + 1 == parts ? last : rounded_point(point_at(arc.ellipse, angle(i + 1))));
+        for (const SnappedCurve& curve : curves_along(arc, last)) {
+            for (const SnappedPoint point : {curve.first, curve.second, curve.end})
+                write_point(point);
             text_ += "c\n";
         }
     }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/drawing/seams.h"
 
+#include "vera/drawing/elliptic_arc.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -53,15 +55,41 @@ public:
         if (place == places_.end() || std::get<0>(*place) != point.x
             || std::get<1>(*place) != point.y)
             return std::nullopt;
-        const auto& points = rings_[std::get<2>(*place)].points;
+        const SnappedPath& ring = rings_[std::get<2>(*place)];
         const std::size_t i = std::get<3>(*place);
-        const Direction next = from_to(point, points[(i + 1) % points.size()]);
-        const Direction previous = from_to(point, points[(i + points.size() - 1) % points.size()]);
+        const std::size_t count = ring.points.size();
+        const std::size_t before = (i + count - 1) % count;
+        const Direction next =
+            begin_of(ring, i).value_or(from_to(point, ring.points[(i + 1) % count]));
+        const Direction previous =
+            end_of(ring, before).value_or(from_to(point, ring.points[before]));
         const double next_cosine = dot(next, direction) / length(next);
         return next_cosine > dot(previous, direction) / length(previous) ? previous : next;
     }
 
 private:
+    static const DrawingArc* arc_at(const SnappedPath& ring, std::size_t segment) {
+        const auto found = std::ranges::lower_bound(ring.arcs, segment, {}, &DrawingArc::segment);
+        return found == ring.arcs.end() || found->segment != segment ? nullptr : &*found;
+    }
+
+    static Direction tangent(const DrawingArc& arc, double degrees, bool is_back) {
+        const DrawingPoint way = tangent_at(arc.ellipse, degrees);
+        const bool is_against = (arc.end_degrees < arc.begin_degrees) != is_back;
+        return is_against ? Direction{-way.x, -way.y} : Direction{way.x, way.y};
+    }
+
+    /// The directions into a segment from its beginning and its end, if it is an arc.
+    static std::optional<Direction> begin_of(const SnappedPath& ring, std::size_t segment) {
+        const DrawingArc* arc = arc_at(ring, segment);
+        return arc ? std::optional(tangent(*arc, arc->begin_degrees, false)) : std::nullopt;
+    }
+
+    static std::optional<Direction> end_of(const SnappedPath& ring, std::size_t segment) {
+        const DrawingArc* arc = arc_at(ring, segment);
+        return arc ? std::optional(tangent(*arc, arc->end_degrees, true)) : std::nullopt;
+    }
+
     using Place = std::tuple<std::int64_t, std::int64_t, std::size_t, std::size_t>;
 
     std::span<const SnappedPath> rings_;

@@ -16,6 +16,13 @@ namespace {
 /// Doubles below this are whole numbers of units to a fraction that rounds right.
 constexpr double most_units = 1e15;
 
+/// The center of an arc of an SVG is found from its ends. Rounding these moves the far ends of flat
+/// ellipses by as many times as much as they are longer than wide.
+constexpr double flattest_arc = 4;
+
+/// How far curves may be off the arcs that they stand for, in units.
+constexpr double most_off = 0.5;
+
 std::int64_t rounded(double units) {
     VERA_CHECK(std::abs(units) < most_units); // false for what is not a number
     return std::llround(units);
@@ -30,8 +37,7 @@ public:
     void write(const SnappedPath& path) {
         // An m at the very beginning counts from (0, 0). Numbers behind it are lines, relative too.
         begin('m');
-        write(path.points.front().x - at_.x);
-        write(path.points.front().y - at_.y);
+        write_point(path.points.front());
         implied_ = 'l';
         at_ = path.points.front();
         for_each_segment(
@@ -57,19 +63,30 @@ private:
             write(point.y - at_.y);
         } else {
             begin('l');
-            write(point.x - at_.x);
-            write(point.y - at_.y);
+            write_point(point);
         }
         at_ = point;
     }
 
-    /// In parts of 90 degrees at most: the center, which is found from the ends, is then off by no
+    /// A short one as a curve, which takes fewer bytes, and a flat one too. Others in parts of 90
+    /// degrees at most: the center, which is found from the ends, is then off by no
     /// more than these, and no part is the larger one of two.
     void write_arc_to(const DrawingArc& arc, SnappedPoint point) {
         constexpr int angle_digits = 4;
         const double sweep = arc.end_degrees - arc.begin_degrees;
         const double a = distance(arc.ellipse.major, {});
         const double b = distance(arc.ellipse.minor, {});
+        if (quadratic_error(arc) <= most_off) {
+            begin('q');
+            write_point(rounded_point(quadratic_control(arc)));
+            write_point(point);
+            at_ = point;
+            return;
+        }
+        if (a > flattest_arc * b) {
+            write_curves_to(arc, point);
+            return;
+        }
         double turn = rounded(a) == rounded(b) ? 0 : direction_degrees(arc.ellipse.major);
         turn = turn > 90 + 1e-6 ? turn - 180 : turn < -90 + 1e-6 ? turn + 180 : turn;
         const int parts = std::max(1, static_cast<int>(std::ceil(std::abs(sweep) / 90 - 1e-9)));
@@ -83,9 +100,17 @@ private:
             write(decimal(turn, angle_digits));
             write("0");
             write(sweep > 0 ? "1" : "0");
-            write(to.x - at_.x);
-            write(to.y - at_.y);
+            write_point(to);
             at_ = to;
+        }
+    }
+
+    void write_curves_to(const DrawingArc& arc, SnappedPoint point) {
+        for (const SnappedCurve& curve : curves_along(arc, point)) {
+            begin('c');
+            for (const SnappedPoint to : {curve.first, curve.second, curve.end})
+                write_point(to);
+            at_ = curve.end;
         }
     }
 
@@ -95,6 +120,11 @@ private:
         text_ += command;
         implied_ = command;
         last_ = Last::command;
+    }
+
+    void write_point(SnappedPoint point) {
+        write(point.x - at_.x);
+        write(point.y - at_.y);
     }
 
     void write(std::int64_t units) { write(decimal(units, digits_)); }
@@ -116,6 +146,56 @@ private:
     char implied_ = '\0'; ///< the command that further numbers would repeat
     Last last_ = Last::command;
 };
+
+/// What is left of a chain with these arcs; nothing when no length is.
+std::optional<SnappedPath> snapped(
+    std::span<const DrawingPoint> points,
+    bool closed,
+    std::span<const DrawingArc> arcs,
+    const Lattice& lattice) {
+    if (points.empty())
+        return std::nullopt;
+    SnappedPath line = {{lattice.snapped(points.front())}, closed, {}};
+    auto arc = arcs.begin();
+    const std::size_t segments = points.size() - (closed ? 0 : 1);
+    for (std::size_t i = 0; i < segments; ++i) {
+        const bool is_arc = arc != arcs.end() && arc->segment == i;
+        const bool is_long = is_arc && std::abs(arc->end_degrees - arc->begin_degrees) >= 90;
+        const bool leads_back = i + 1 == points.size();
+        const SnappedPoint to = lattice.snapped(points[leads_back ? 0 : i + 1]);
+        if (is_long || to != line.points.back()) {
+            if (is_arc) {
+                line.arcs.push_back(lattice.in_units(*arc));
+                line.arcs.back().segment = line.points.size() - 1;
+            }
+            if (!leads_back)
+                line.points.push_back(to);
+        }
+        arc += is_arc ? 1 : 0;
+    }
+    const auto leads_back_straight = [&] {
+        return line.arcs.empty() || line.arcs.back().segment + 1 < line.points.size();
+    };
+    while (closed && line.points.size() > 1 && line.points.back() == line.points.front()
+           && leads_back_straight())
+        line.points.pop_back();
+    if (line.points.size() < 2 && line.arcs.empty())
+        return std::nullopt;
+    return line;
+}
+
+/// How far the arc is off its chord where it is farthest, in pixels; of more than half a turn, its
+/// larger axis.
+double height(const DrawingArc& arc) {
+    const double sweep = arc.end_degrees - arc.begin_degrees;
+    if (std::abs(sweep) > 180)
+        return distance(arc.ellipse.major, {});
+    const DrawingPoint a = point_at(arc.ellipse, arc.begin_degrees);
+    const DrawingPoint b = point_at(arc.ellipse, arc.end_degrees);
+    // There the tangent runs along the chord.
+    const DrawingPoint middle = point_at(arc.ellipse, arc.begin_degrees + sweep / 2);
+    return distance(middle, {(a.x + b.x) / 2, (a.y + b.y) / 2});
+}
 
 } // namespace
 
@@ -157,49 +237,42 @@ snapped_points(std::span<const DrawingPoint> points, const Lattice& lattice) {
     return snapped;
 }
 
+std::vector<SnappedCurve> curves_along(const DrawingArc& arc, SnappedPoint end) {
+    const int parts = bezier_parts(arc, most_off);
+    const auto angle = [&](int part) {
+        return arc.begin_degrees + (arc.end_degrees - arc.begin_degrees) * part / parts;
+    };
+    std::vector<SnappedCurve> curves;
+    for (int i = 0; i < parts; ++i) {
+        const auto [first, second] = bezier_controls(arc.ellipse, angle(i), angle(i + 1));
+        curves.push_back(
+            {rounded_point(first),
+             rounded_point(second),
+             i + 1 == parts ? end : rounded_point(point_at(arc.ellipse, angle(i + 1)))});
+    }
+    return curves;
+}
+
 std::vector<SnappedPath> snapped_rings(const FilledOutline& fill, const Lattice& lattice) {
+    constexpr double straight = 0.5; // units
     std::vector<SnappedPath> rings;
-    for (const auto& ring : fill.rings) {
-        std::vector<SnappedPoint> points = snapped_points(ring, lattice);
-        while (points.size() > 1 && points.back() == points.front())
-            points.pop_back();
-        if (points.size() >= 3)
-            rings.push_back({std::move(points), true});
+    for (std::size_t i = 0; i < fill.rings.size(); ++i) {
+        std::vector<DrawingArc> arcs;
+        if (i < fill.arcs.size())
+            for (const DrawingArc& arc : fill.arcs[i])
+                if (height(arc) * lattice.units_per_pixel() > straight)
+                    arcs.push_back(arc);
+        std::optional<SnappedPath> ring = snapped(fill.rings[i], true, arcs, lattice);
+        if (ring && (ring->points.size() >= 3 || !ring->arcs.empty()))
+            rings.push_back(std::move(*ring));
     }
     return rings;
 }
 
 std::optional<SnappedPath> snapped_line(const Stroke& stroke, const Lattice& lattice) {
-    if (stroke.points.empty())
-        return std::nullopt;
-    SnappedPath line = {{lattice.snapped(stroke.points.front())}, stroke.closed, {}};
-    auto arc = stroke.arcs.begin();
-    const std::size_t segments = stroke.points.size() - (stroke.closed ? 0 : 1);
-    for (std::size_t i = 0; i < segments; ++i) {
-        const bool is_arc = arc != stroke.arcs.end() && arc->segment == i;
-        const bool is_long = is_arc && std::abs(arc->end_degrees - arc->begin_degrees) >= 90;
-        const bool leads_back = i + 1 == stroke.points.size();
-        const SnappedPoint to = lattice.snapped(stroke.points[leads_back ? 0 : i + 1]);
-        if (is_long || to != line.points.back()) {
-            if (is_arc) {
-                line.arcs.push_back(lattice.in_units(*arc));
-                line.arcs.back().segment = line.points.size() - 1;
-            }
-            if (!leads_back)
-                line.points.push_back(to);
-        }
-        arc += is_arc ? 1 : 0;
-    }
-    const auto leads_back_straight = [&] {
-        return line.arcs.empty() || line.arcs.back().segment + 1 < line.points.size();
-    };
-    while (line.closed && line.points.size() > 1 && line.points.back() == line.points.front()
-           && leads_back_straight())
-        line.points.pop_back();
-    if (line.points.size() < 2 && line.arcs.empty())
-        return std::nullopt;
-    if (line.points.size() == 2 && line.arcs.empty())
-        line.closed = false; // there and back is there
+    std::optional<SnappedPath> line = snapped(stroke.points, stroke.closed, stroke.arcs, lattice);
+    if (line && line->points.size() == 2 && line->arcs.empty())
+        line->closed = false; // there and back is there
     return line;
 }
 

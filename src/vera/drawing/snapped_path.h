@@ -72,11 +72,22 @@ SnappedPoint rounded_point(DrawingPoint in_units);
 std::vector<SnappedPoint>
 snapped_points(std::span<const DrawingPoint> points, const Lattice& lattice);
 
-/// The rings of the area that are left after rounding; all closed, of three points or more.
+/// The rings of the area that are left after rounding; all closed, of three points or more, or with
+/// an arc. Arcs that are nowhere farther than half a unit off their chord are straight.
 std::vector<SnappedPath> snapped_rings(const FilledOutline& fill, const Lattice& lattice);
 
 /// Nothing when no length is left.
 std::optional<SnappedPath> snapped_line(const Stroke& stroke, const Lattice& lattice);
+
+/// A cubic Bezier curve, from where the one before it ended.
+struct SnappedCurve {
+    SnappedPoint first; ///< the control points
+    SnappedPoint second;
+    SnappedPoint end;
+};
+
+/// Curves along the arc, which is in units, to its end: no farther off it than half a unit.
+std::vector<SnappedCurve> curves_along(const DrawingArc& arc, SnappedPoint end);
 
 /// A number of units of 10^-digits as a decimal, with nothing that can be left out: "-.5", "12".
 std::string decimal(std::int64_t units, int digits);

@@ -17,6 +17,7 @@ struct Side {
     std::uint32_t area = 0;
     std::uint32_t from = 0;
     std::uint32_t to = 0;
+    std::uint32_t place = 0; ///< of its first vertex in ring_vertices
     bool used = false;
 };
 
@@ -24,7 +25,8 @@ bool comes_before(const Side& a, const Side& b) {
     return a.area != b.area ? a.area < b.area : a.from < b.from;
 }
 
-/// Calls visit(source, one of its vertices, the next, what is seen across).
+/// Calls visit(source, the places in ring_vertices of one of its vertices and of the next, what is
+/// seen across).
 template <typename Visit>
 void for_each_side(
     const VisibleMap& map, const Progress& progress, const CancelFlag* cancel, const Visit& visit) {
@@ -32,12 +34,11 @@ void for_each_side(
     for (std::size_t number = 0; number < map.rings.size(); ++number) {
         loop.turn(number);
         const VisibleMap::Ring& ring = map.rings[number];
-        const auto vertices = map.vertices_of(ring);
-        for (std::size_t i = 0; i < vertices.size(); ++i)
+        for (std::size_t i = 0; i < ring.count; ++i)
             visit(
                 ring.source,
-                vertices[i],
-                vertices[i + 1 == vertices.size() ? 0 : i + 1],
+                static_cast<std::uint32_t>(ring.first + i),
+                static_cast<std::uint32_t>(ring.first + (i + 1 == ring.count ? 0 : i + 1)),
                 map.source_across(ring.first + i));
     }
 }
@@ -72,7 +73,7 @@ std::vector<std::uint32_t> way_from(std::vector<Side>& sides, Side& first) {
     std::vector<std::uint32_t> way;
     for (Side* side = &first; side != nullptr;) {
         side->used = true;
-        way.push_back(side->from);
+        way.push_back(side->place);
         const Side wanted = {side->area, side->to, 0};
         auto next = std::lower_bound(sides.begin(), sides.end(), wanted, comes_before);
         while (next != sides.end() && !comes_before(wanted, *next) && next->used)
@@ -119,7 +120,11 @@ covered_areas(const VisibleMap& map, const Progress& progress, const CancelFlag*
         cancel,
         [&](std::uint32_t source, std::uint32_t from, std::uint32_t to, std::uint32_t across) {
             if (across == no_source)
-                sides.push_back({areas.of_source[source], from, to});
+                sides.push_back(
+                    {areas.of_source[source],
+                     map.ring_vertices[from],
+                     map.ring_vertices[to],
+                     from});
         });
     std::stable_sort(sides.begin(), sides.end(), comes_before);
     const LongLoop loop(sides.size(), stages.next(1), cancel);

@@ -11,8 +11,8 @@ namespace vera {
 
 /// What of a picture is covered, in areas that hang together.
 struct CoveredAreas {
-    /// Closed ways along which the area is on the left and the background on the right, through
-    /// vertices of the map.
+    /// Closed ways along which the area is on the left and the background on the right: sides of
+    /// the map's rings, each as the place of its first vertex in ring_vertices.
     using Outline = std::vector<std::vector<std::uint32_t>>;
 
     std::vector<Outline> outlines;

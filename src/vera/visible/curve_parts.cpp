@@ -46,12 +46,6 @@ bool is_before(const OnCurve& a, const OnCurve& b) {
     return key(a) < key(b);
 }
 
-/// The way from one angle to another by less than half a turn.
-double turned(double from, double to) {
-    const double by = to - from;
-    return by - whole_turn * std::floor((by + whole_turn / 2) / whole_turn);
-}
-
 void add_part(
     const OutlineCurves& curves,
     const LinePart& part,

@@ -41,19 +41,6 @@ std::vector<std::uint64_t> primitives_of(const Facets& facets, const DrawnFaces&
     return primitives;
 }
 
-/// Makes the larger faces the sources, and leaves out the pieces that parted one of them.
-void join_sources(
-    ScreenScene& screen, VisiblePieces& pieces, const DrawnFaces& before, const DrawnFaces& after) {
-    for (ScreenTriangle& triangle : screen.triangles)
-        triangle.source = after.of_facet[before.first_facet[triangle.source]];
-    const auto source = [&](std::uint32_t triangle) {
-        return triangle == no_triangle ? no_source : screen.triangles[triangle].source;
-    };
-    std::erase_if(pieces.pieces, [&](const VisiblePiece& piece) {
-        return source(piece.left) == source(piece.right) && piece.left_unlit == piece.right_unlit;
-    });
-}
-
 bool has_shadows(const PictureSettings& picture, const DrawSettings& settings) {
     return has_fills(settings.style) ? picture.shadows && settings.style != DrawingStyle::ids
                                      : settings.shadow_lines;
@@ -208,32 +195,24 @@ Drawing painted(Request& request, const SeenScene& seen, const VisibleMap& map) 
     Drawing drawing;
     drawing.width = request.picture.width;
     drawing.height = request.picture.height;
+    const MapSources sources = {
+        request.scene,
+        request.camera,
+        request.camera_map,
+        request.picture,
+        seen.facets,
+        seen.faces,
+        map,
+        settings.deviation};
     if (has_fills(settings.style))
         add_fills(
-            {request.scene,
-             request.camera,
-             request.picture,
-             seen.facets,
-             seen.faces,
-             map,
-             settings.style,
-             {settings.color_tolerance, settings.deviation}},
+            {sources, settings.style, settings.color_tolerance},
             request.next_stage(request.times.fills),
             request.cancel,
             drawing);
     if (has_lines(settings.style))
         add_strokes(
-            {request.scene,
-             request.camera,
-             request.camera_map,
-             request.picture,
-             seen.facets,
-             seen.faces,
-             seen.screen,
-             seen.whole.pieces,
-             map,
-             settings.deviation,
-             &seen.uncut},
+            {sources, seen.screen, seen.whole.pieces, &seen.uncut},
             {.hidden = settings.style == DrawingStyle::hidden_lines,
              .shadows = settings.shadow_lines},
             request.next_stage(request.times.lines),

@@ -53,7 +53,7 @@ double drawing_bytes(double pieces, std::size_t surfaces, DrawingStyle style) {
     double per_surface = 0;
     switch (style) {
     case DrawingStyle::flat:
-        per_piece = 600;
+        per_piece = 750; // of curved surfaces, whose borders are arcs
         break;
     case DrawingStyle::shaded:
         per_piece = 800;

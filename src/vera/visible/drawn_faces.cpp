@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstddef>
+#include <vector>
 
 namespace vera {
 
@@ -47,6 +48,8 @@ Parts parts_of(const Scene& scene, const Facets::Triangle& facet, FaceUnit unit)
     return sides ? Parts::by_side : Parts::each;
 }
 
+} // namespace
+
 bool shows_outside(const Facets& facets, const Facets::Triangle& facet, const Camera& camera) {
     const Vec3 a = facets.corners[facet.corners[0]];
     const Vec3 ray =
@@ -55,8 +58,6 @@ bool shows_outside(const Facets& facets, const Facets::Triangle& facet, const Ca
         cross(facets.corners[facet.corners[1]] - a, facets.corners[facet.corners[2]] - a);
     return dot(normal, ray) < 0;
 }
-
-} // namespace
 
 DrawnFaces drawn_faces(
     const Scene& scene,
@@ -89,6 +90,18 @@ DrawnFaces drawn_faces(
         faces.of_facet.push_back(face);
     }
     return faces;
+}
+
+void join_sources(
+    ScreenScene& screen, VisiblePieces& pieces, const DrawnFaces& before, const DrawnFaces& after) {
+    for (ScreenTriangle& triangle : screen.triangles)
+        triangle.source = after.of_facet[before.first_facet[triangle.source]];
+    const auto source = [&](std::uint32_t triangle) {
+        return triangle == no_triangle ? no_source : screen.triangles[triangle].source;
+    };
+    std::erase_if(pieces.pieces, [&](const VisiblePiece& piece) {
+        return source(piece.left) == source(piece.right) && piece.left_unlit == piece.right_unlit;
+    });
 }
 
 } // namespace vera

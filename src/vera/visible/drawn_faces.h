@@ -5,6 +5,8 @@
 #include "vera/scene/camera.h"
 #include "vera/scene/facets.h"
 #include "vera/scene/scene.h"
+#include "vera/visible/cell_raster.h"
+#include "vera/visible/screen_scene.h"
 
 #include <cstdint>
 #include <vector>
@@ -25,6 +27,9 @@ struct DrawnFaces {
     std::vector<std::uint32_t> first_facet; ///< of each face
 };
 
+/// Whether the facet turns its outside to the viewer.
+bool shows_outside(const Facets& facets, const Facets::Triangle& facet, const Camera& camera);
+
 /// The camera tells the outside of a facet from its inside; only smooth ones ask for that. Throws
 /// Cancelled.
 DrawnFaces drawn_faces(
@@ -33,5 +38,9 @@ DrawnFaces drawn_faces(
     FaceUnit unit,
     const Camera& camera = {},
     const CancelFlag* cancel = nullptr);
+
+/// Makes the larger faces the sources, and leaves out the pieces that parted one of them.
+void join_sources(
+    ScreenScene& screen, VisiblePieces& pieces, const DrawnFaces& before, const DrawnFaces& after);
 
 } // namespace vera

@@ -24,20 +24,22 @@ crossing(DrawingPoint inside, double inside_by, DrawingPoint outside, double out
 
 /// A part of a ring within a half plane, from where it comes in to where it leaves.
 struct Passage {
-    PointChain points;
+    BorderRing points;
     bool is_joined = false;
 };
 
-void add_point(PointChain& chain, DrawingPoint point) {
-    if (chain.empty() || chain.back() != point)
-        chain.push_back(point);
+/// Of points that are the same, the last one's side is what leads on.
+void add_point(BorderRing& ring, const BorderPoint& point) {
+    if (!ring.empty() && ring.back() == point)
+        ring.pop_back();
+    ring.push_back(point);
 }
 
 /// Adds what of the ring lies in the half plane: the passages, or the whole of it.
 void add_parts(
-    const PointChain& ring,
+    const BorderRing& ring,
     const HalfPlane& half,
-    std::vector<PointChain>& whole,
+    std::vector<BorderRing>& whole,
     std::vector<Passage>& passages) {
     const auto next = [&](std::size_t i) { return i + 1 == ring.size() ? 0 : i + 1; };
     const auto comes_in = [&](std::size_t i) {
@@ -52,13 +54,13 @@ void add_parts(
         return;
     }
     for (std::size_t count = 0, i = entry; count < ring.size(); ++count, i = next(i)) {
-        const DrawingPoint from = ring[i];
-        const DrawingPoint to = ring[next(i)];
+        const BorderPoint& from = ring[i];
+        const BorderPoint& to = ring[next(i)];
         const double from_by = beyond(half, from);
         const double to_by = beyond(half, to);
         if (from_by > 0 && to_by <= 0) {
             passages.emplace_back();
-            add_point(passages.back().points, crossing(to, to_by, from, from_by));
+            add_point(passages.back().points, {crossing(to, to_by, from, from_by), from.curve});
         }
         if (to_by <= 0)
             add_point(passages.back().points, to);
@@ -107,10 +109,10 @@ void cut_line(const PointChain& line, const HalfPlane& half, std::vector<PointCh
 
 } // namespace
 
-std::vector<PointChain> cut_rings(const std::vector<PointChain>& rings, const HalfPlane& half) {
-    std::vector<PointChain> left;
+std::vector<BorderRing> cut_rings(const std::vector<BorderRing>& rings, const HalfPlane& half) {
+    std::vector<BorderRing> left;
     std::vector<Passage> passages;
-    for (const PointChain& ring : rings)
+    for (const BorderRing& ring : rings)
         add_parts(ring, half, left, passages);
 
     // The border passes through the areas in intervals, each from where a ring comes in to where
@@ -122,10 +124,10 @@ std::vector<PointChain> cut_rings(const std::vector<PointChain>& rings, const Ha
     for (std::size_t i = 0; i < passages.size(); ++i)
         following[exits[i]] = entries[i];
     for (std::size_t first = 0; first < passages.size(); ++first) {
-        PointChain ring;
+        BorderRing ring;
         for (std::size_t i = first; !passages[i].is_joined; i = following[i]) {
             passages[i].is_joined = true;
-            for (const DrawingPoint point : passages[i].points)
+            for (const BorderPoint& point : passages[i].points)
                 add_point(ring, point);
         }
         while (ring.size() > 1 && ring.back() == ring.front())

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "vera/drawing/drawing.h"
+#include "vera/visible/border_ring.h"
 
 #include <vector>
 
@@ -16,8 +16,9 @@ struct HalfPlane {
 using PointChain = std::vector<DrawingPoint>;
 
 /// What of the areas lies in the half plane. The rings must run alike round areas, and against that
-/// round holes. Those of which nothing is left are left out.
-std::vector<PointChain> cut_rings(const std::vector<PointChain>& rings, const HalfPlane& half);
+/// round holes. Those of which nothing is left are left out. What is left of a side along a curve
+/// is one.
+std::vector<BorderRing> cut_rings(const std::vector<BorderRing>& rings, const HalfPlane& half);
 
 /// What of the lines lies in the half plane, in their order.
 std::vector<PointChain> cut_lines(const std::vector<PointChain>& lines, const HalfPlane& half);

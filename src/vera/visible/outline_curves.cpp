@@ -133,6 +133,14 @@ std::optional<DrawingEllipse> outline_ellipse(
         (yy / ww + off_y * off_y) * height * height);
 }
 
+double curve_tolerance(const PictureSettings& picture, double deviation) {
+    return deviation + 4.0 * std::max(picture.width, picture.height) / screen_size;
+}
+
+DrawingPoint in_pixels(const PictureSettings& picture, const RationalPoint& point) {
+    return {point.x() * picture.width / screen_size, point.y() * picture.height / screen_size};
+}
+
 OutlineCurves::OutlineCurves(
     const Scene& scene,
     const CameraMap& map,
@@ -208,7 +216,18 @@ std::uint32_t OutlineCurves::curve_of(
         if (curve == no_curve)
             continue;
         const DrawingEllipse& ellipse = curves_[curve];
+        const double a = distance(ellipse.major, {});
+        const double b = distance(ellipse.minor, {});
         const auto is_near = [&](DrawingPoint point) {
+            // Where the ellipse is the unit circle; lengths there are shorter by b at least.
+            const double x = point.x - ellipse.center.x;
+            const double y = point.y - ellipse.center.y;
+            const double radius = distance(
+                {(x * ellipse.major.x + y * ellipse.major.y) / (a * a),
+                 (x * ellipse.minor.x + y * ellipse.minor.y) / (b * b)},
+                {});
+            if (std::abs(radius - 1) * b > tolerance)
+                return false;
             return distance(point, point_at(ellipse, nearest_degrees(ellipse, point))) <= tolerance;
         };
         if (is_near(ends[0]) && is_near(ends[1]) && is_near(middle))

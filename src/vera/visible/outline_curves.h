@@ -2,6 +2,7 @@
 #pragma once
 
 #include "vera/drawing/drawing.h"
+#include "vera/exact/screen_point.h"
 #include "vera/scene/facets.h"
 #include "vera/scene/picture_settings.h"
 #include "vera/scene/scene.h"
@@ -26,10 +27,20 @@ constexpr std::uint32_t no_curve = ~std::uint32_t{0};
 std::optional<DrawingEllipse> outline_ellipse(
     const CameraMap& map, const PictureSettings& picture, Vec3 center, std::span<const Vec3> axes);
 
+/// How far, in pixels, what lies on a curve may be off it: as far as facets may, and the grid moves
+/// points.
+double curve_tolerance(const PictureSettings& picture, double deviation);
+
+/// Where the picture shows the point, in pixels.
+DrawingPoint in_pixels(const PictureSettings& picture, const RationalPoint& point);
+
 /// The ellipses that lines of curved primitives lie upon: the silhouettes of spheres and of the
 /// parts of rotational shapes that belong to one, and the circles at which these have edges.
 class OutlineCurves {
 public:
+    /// None.
+    OutlineCurves() = default;
+
     /// Of the primitives, which are in ascending order.
     OutlineCurves(
         const Scene& scene,
@@ -46,6 +57,8 @@ public:
         double tolerance) const;
 
     const DrawingEllipse& operator[](std::uint32_t curve) const { return curves_[curve]; }
+
+    std::span<const DrawingEllipse> all() const { return curves_; }
 
 private:
     /// Of a piece of a primitive the circles at which it begins and ends, and the silhouette of the

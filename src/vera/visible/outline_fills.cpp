@@ -5,6 +5,7 @@
 #include "vera/base/progress_part.h"
 #include "vera/scene/item_names.h"
 #include "vera/scene/surface.h"
+#include "vera/visible/drawn_borders.h"
 #include "vera/visible/face_color.h"
 #include "vera/visible/region_outlines.h"
 #include "vera/visible/shaded_outlines.h"
@@ -71,15 +72,14 @@ void add_shaded(
     for (std::size_t i = 0; i < regions.count(); ++i) {
         loop.turn(i);
         const std::uint32_t facet = facet_of(sources, regions, i);
-        FilledOutline outline;
-        names.name(sources.facets.triangles[facet].primitive, outline);
-        regions.add_rings(i, outline);
-        cover_seams_closely(regions, i, outline);
-        lit[i] = {
-            std::move(outline), regions.rings(i).size(), facet, ~sources.map.regions[i].unlit};
+        PaintedRegion region;
+        names.name(sources.facets.triangles[facet].primitive, region.outline);
+        region.rings = regions.borders(i);
+        cover_seams_closely(regions, i, region);
+        lit[i] = {std::move(region), facet, ~sources.map.regions[i].unlit};
     }
-    DrawnFirmament firmament =
-        drawn_firmament(sources.camera, sources.picture, sources.tolerance, cancel);
+    const PaintTolerance tolerance = {sources.color_tolerance, sources.deviation};
+    DrawnFirmament firmament = drawn_firmament(sources.camera, sources.picture, tolerance, cancel);
     drawing.background = firmament.background;
     drawing.fills = std::move(firmament.sky);
     std::ranges::move(
@@ -89,10 +89,25 @@ void add_shaded(
              sources.camera,
              sources.picture,
              sources.facets,
-             sources.tolerance,
+             tolerance,
+             regions.curves().all(),
              stages.next(9),
              cancel}),
         std::back_inserter(drawing.fills));
+}
+
+std::vector<DrawingColor> colors_of(
+    const FillSources& sources,
+    const RegionOutlines& regions,
+    const Progress& progress,
+    const CancelFlag* cancel) {
+    std::vector<DrawingColor> colors(regions.count());
+    const LongLoop loop(regions.count(), progress, cancel, 256);
+    for (std::size_t i = 0; i < regions.count(); ++i) {
+        loop.turn(i);
+        colors[i] = region_color(sources, regions.rings(i));
+    }
+    return colors;
 }
 
 /// The outlines in one colour each, on underlays.
@@ -105,20 +120,24 @@ void add_flat(
     StageProgress stages(progress, 10);
     OutlineNames names(sources.scene);
     const std::vector<bool> is_covering_whole = covering_whole(regions, stages.next(1), cancel);
-    const LongLoop loop(regions.count(), stages.next(5), cancel, 256);
+    const std::vector<DrawingColor> colors = colors_of(sources, regions, stages.next(2), cancel);
+    std::vector<FilledOutline> fills;
+    fills.reserve(regions.count());
+    const LongLoop loop(regions.count(), stages.next(3), cancel, 256);
     for (std::size_t i = 0; i < regions.count(); ++i) {
         loop.turn(i);
-        FilledOutline& outline = drawing.fills.emplace_back();
-        outline.color = region_color(sources, regions.rings(i));
-        names.name(sources.facets.triangles[facet_of(sources, regions, i)].primitive, outline);
-        regions.add_rings(i, outline);
-        cover_seams(regions, is_covering_whole, i, outline);
+        PaintedRegion region;
+        region.outline.color = colors[i];
+        names.name(
+            sources.facets.triangles[facet_of(sources, regions, i)].primitive, region.outline);
+        region.rings = regions.borders(i);
+        cover_seams(regions, is_covering_whole, colors, i, region);
+        add_rings(region, regions.curves().all());
+        fills.push_back(std::move(region.outline));
     }
-    std::vector<FilledOutline> below = underlays(regions, drawing.fills, stages.next(4), cancel);
-    drawing.fills.insert(
-        drawing.fills.begin(),
-        std::make_move_iterator(below.begin()),
-        std::make_move_iterator(below.end()));
+    drawing.fills = underlays(regions, fills, stages.next(4), cancel);
+    drawing.fills.reserve(drawing.fills.size() + fills.size());
+    std::ranges::move(fills, std::back_inserter(drawing.fills));
 }
 
 /// The outlines in the colours of their numbers. These are to be compared, not looked at: the
@@ -129,13 +148,23 @@ void add_numbers(
     const Progress& progress,
     const CancelFlag* cancel,
     Drawing& drawing) {
+    drawing.fills.reserve(regions.count());
     const LongLoop loop(regions.count(), progress, cancel, 256);
     for (std::size_t i = 0; i < regions.count(); ++i) {
         loop.turn(i);
-        FilledOutline& outline = drawing.fills.emplace_back();
-        outline.color = region_color(sources, regions.rings(i));
-        regions.add_rings(i, outline);
+        PaintedRegion region;
+        region.outline.color = region_color(sources, regions.rings(i));
+        region.rings = regions.borders(i);
+        add_rings(region, regions.curves().all());
+        drawing.fills.push_back(std::move(region.outline));
     }
+}
+
+/// Numbers are exact: what is compared with rays is what is written.
+DrawnBorders
+borders_of(const FillSources& sources, const Progress& progress, const CancelFlag* cancel) {
+    return sources.style == DrawingStyle::ids ? straight_borders(sources.map, sources.picture)
+                                              : curved_borders(sources, progress, cancel);
 }
 
 } // namespace
@@ -146,13 +175,15 @@ void add_fills(
     const CancelFlag* cancel,
     Drawing& drawing) {
     drawing.background = background_color(sources);
-    const RegionOutlines regions(sources.map, sources.picture);
+    StageProgress stages(progress, 10);
+    const RegionOutlines regions(sources.map, borders_of(sources, stages.next(1), cancel));
+    const Progress of_fills = stages.next(9);
     if (sources.style == DrawingStyle::shaded)
-        add_shaded(sources, regions, progress, cancel, drawing);
+        add_shaded(sources, regions, of_fills, cancel, drawing);
     else if (sources.style == DrawingStyle::ids)
-        add_numbers(sources, regions, progress, cancel, drawing);
+        add_numbers(sources, regions, of_fills, cancel, drawing);
     else
-        add_flat(sources, regions, progress, cancel, drawing);
+        add_flat(sources, regions, of_fills, cancel, drawing);
 }
 
 } // namespace vera

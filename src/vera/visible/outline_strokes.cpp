@@ -10,6 +10,7 @@
 #include "vera/visible/hidden_parts.h"
 #include "vera/visible/line_chains.h"
 #include "vera/visible/line_rules.h"
+#include "vera/visible/line_tracks.h"
 #include "vera/visible/outline_curves.h"
 #include "vera/visible/point_numbers.h"
 #include "vera/visible/second_lines.h"
@@ -119,14 +120,8 @@ void add_hidden_parts(
     }
 }
 
-DrawingPoint in_pixels(const PictureSettings& picture, const RationalPoint& point) {
-    return {point.x() * picture.width / screen_size, point.y() * picture.height / screen_size};
-}
-
-/// How far what lies on a curve may be off it: as far as facets may, and the grid moves points.
 double tolerance(const StrokeSources& sources) {
-    return sources.deviation
-        + 4.0 * std::max(sources.picture.width, sources.picture.height) / screen_size;
+    return curve_tolerance(sources.picture, sources.deviation);
 }
 
 OutlineCurves curves_of(const StrokeSources& sources, const std::vector<LinePart>& parts) {
@@ -205,13 +200,14 @@ void move_to_curves(
     const CancelFlag* cancel,
     std::vector<DrawingPoint>& places) {
     const std::vector<Constraint> constraints = constraints_of(lines);
-    const auto moved = [&](const Constraint& to, DrawingPoint from, DrawingPoint point) {
+    const auto track = [&](const Constraint& to) {
         if (to.curve != no_curve)
-            return point_at(curves[to.curve], nearest_degrees(curves[to.curve], point));
-        const double x = static_cast<double>(to.step.x) * sources.picture.width;
-        const double y = static_cast<double>(to.step.y) * sources.picture.height;
-        const double part = ((point.x - from.x) * x + (point.y - from.y) * y) / (x * x + y * y);
-        return DrawingPoint{from.x + part * x, from.y + part * y};
+            return LineTrack{&curves[to.curve], {}, {}};
+        return LineTrack{
+            nullptr,
+            places[to.vertex],
+            {static_cast<double>(to.step.x) * sources.picture.width,
+             static_cast<double>(to.step.y) * sources.picture.height}};
     };
     for (std::size_t first = 0, last = 0; first < constraints.size(); first = last) {
         stop_if_raised(cancel);
@@ -221,11 +217,9 @@ void move_to_curves(
             if (other == nullptr && !constraints[last].is_same_as(one))
                 other = &constraints[last];
         const DrawingPoint from = places[one.vertex];
-        const DrawingPoint nearest = moved(one, from, from);
-        // From one to the other and back leads to where they cross, unless they all but touch.
-        DrawingPoint crossing = nearest;
-        for (int i = 0; other != nullptr && i < 32; ++i)
-            crossing = moved(one, from, moved(*other, from, crossing));
+        const DrawingPoint nearest = nearest_on(track(one), from);
+        const DrawingPoint crossing =
+            other != nullptr ? crossing_near(track(one), track(*other), from) : nearest;
         places[one.vertex] =
             distance(crossing, from) <= 4 * tolerance(sources) ? crossing : nearest;
     }

@@ -3,30 +3,16 @@
 
 #include "vera/base/parallel.h"
 #include "vera/drawing/drawing.h"
-#include "vera/scene/facets.h"
-#include "vera/scene/picture_settings.h"
-#include "vera/scene/scene.h"
 #include "vera/visible/cell_raster.h"
-#include "vera/visible/drawn_faces.h"
-#include "vera/visible/projection.h"
-#include "vera/visible/visible_map.h"
-
-#include <cstdint>
+#include "vera/visible/map_sources.h"
+#include "vera/visible/screen_scene.h"
 
 namespace vera {
 
 /// What lines are drawn from.
-struct StrokeSources {
-    const Scene& scene;
-    const Camera& camera;
-    const CameraMap& camera_map;
-    const PictureSettings& picture;
-    const Facets& facets;
-    const DrawnFaces& faces;
+struct StrokeSources : MapSources {
     const ScreenScene& screen;
     const VisiblePieces& pieces;
-    const VisibleMap& map;
-    double deviation = 0;               ///< how far facets may lie off what is curved, in pixels
     const ScreenScene* uncut = nullptr; ///< for hidden lines: before what penetrates was cut
 };
 

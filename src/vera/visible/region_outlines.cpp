@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/region_outlines.h"
 
+#include <utility>
+
 namespace vera {
 
-RegionOutlines::RegionOutlines(const VisibleMap& map, const PictureSettings& picture)
+RegionOutlines::RegionOutlines(const VisibleMap& map, DrawnBorders borders)
     : map_(map)
-    , width_(picture.width)
-    , height_(picture.height) {
+    , borders_(std::move(borders)) {
     for (std::size_t i = 0; i < map.rings.size(); ++i)
         if (i == 0 || map.rings[i].region != map.rings[i - 1].region)
             starts_.push_back(i);
@@ -20,19 +21,20 @@ std::size_t RegionOutlines::corner_count(std::size_t region) const {
     return count;
 }
 
-void RegionOutlines::add_ring(
-    std::span<const std::uint32_t> vertices, FilledOutline& outline) const {
-    std::vector<DrawingPoint>& points = outline.rings.emplace_back();
-    points.reserve(vertices.size());
-    for (const std::uint32_t vertex : vertices) {
-        const RationalPoint& point = map_.vertices[vertex];
-        points.push_back({point.x() * width_ / screen_size, point.y() * height_ / screen_size});
-    }
+std::vector<BorderRing> RegionOutlines::borders(std::size_t region) const {
+    std::vector<BorderRing> borders;
+    borders.reserve(rings(region).size());
+    for (const VisibleMap::Ring& ring : rings(region))
+        borders.push_back(borders_.ring(map_, ring));
+    return borders;
 }
 
-void RegionOutlines::add_rings(std::size_t region, FilledOutline& outline) const {
-    for (const VisibleMap::Ring& ring : rings(region))
-        add_ring(map_.vertices_of(ring), outline);
+void RegionOutlines::add_way(std::span<const std::uint32_t> sides, FilledOutline& outline) const {
+    BorderRing way;
+    way.reserve(sides.size());
+    for (const std::uint32_t side : sides)
+        way.push_back(borders_.point(map_, side));
+    add_ring(way, borders_.curves.all(), outline);
 }
 
 } // namespace vera

@@ -2,7 +2,8 @@
 #pragma once
 
 #include "vera/drawing/drawing.h"
-#include "vera/scene/picture_settings.h"
+#include "vera/visible/border_ring.h"
+#include "vera/visible/drawn_borders.h"
 #include "vera/visible/visible_map.h"
 
 #include <cstddef>
@@ -15,9 +16,12 @@ namespace vera {
 /// The regions of a map, by their numbers, as outlines in pixels. The map must outlive it.
 class RegionOutlines {
 public:
-    RegionOutlines(const VisibleMap& map, const PictureSettings& picture);
+    RegionOutlines(const VisibleMap& map, DrawnBorders borders);
 
     const VisibleMap& map() const { return map_; }
+
+    /// Those that the borders' sides lie upon.
+    const BorderCurves& curves() const { return borders_.curves; }
 
     std::size_t count() const { return starts_.size() - 1; }
 
@@ -28,16 +32,16 @@ public:
 
     std::size_t corner_count(std::size_t region) const;
 
-    /// Adds a ring through vertices of the map.
-    void add_ring(std::span<const std::uint32_t> vertices, FilledOutline& outline) const;
+    /// As they are drawn: one for each of the region's rings.
+    std::vector<BorderRing> borders(std::size_t region) const;
 
-    /// Adds those of the region.
-    void add_rings(std::size_t region, FilledOutline& outline) const;
+    /// Adds a closed way along sides of rings, each given by the place of its first vertex in
+    /// ring_vertices.
+    void add_way(std::span<const std::uint32_t> sides, FilledOutline& outline) const;
 
 private:
     const VisibleMap& map_;
-    double width_; ///< of the picture, in pixels
-    double height_;
+    DrawnBorders borders_;
     std::vector<std::size_t> starts_; ///< of each region in the map's rings
 };
 

@@ -32,17 +32,17 @@ struct Extent {
     double length() const { return std::max(most.x - least.x, most.y - least.y); }
 };
 
-Extent extent_of(const std::vector<PointChain>& rings) {
+Extent extent_of(const std::vector<BorderRing>& rings) {
     Extent extent;
-    for (const PointChain& ring : rings)
+    for (const BorderRing& ring : rings)
         for (const DrawingPoint point : ring)
             extent.add(point);
     return extent;
 }
 
-double area_of(const std::vector<PointChain>& rings) {
+double area_of(const std::vector<BorderRing>& rings) {
     double doubled = 0;
-    for (const PointChain& ring : rings)
+    for (const BorderRing& ring : rings)
         for (std::size_t i = 0; i < ring.size(); ++i) {
             const DrawingPoint next = ring[i + 1 == ring.size() ? 0 : i + 1];
             doubled += ring[i].x * next.y - ring[i].y * next.x;
@@ -59,8 +59,8 @@ void for_each_step(double from, double to, double step, const Sink& sink) {
 }
 
 void add_border_points(
-    const std::vector<PointChain>& rings, double spacing, std::vector<DrawingPoint>& points) {
-    for (const PointChain& ring : rings)
+    const std::vector<BorderRing>& rings, double spacing, std::vector<DrawingPoint>& points) {
+    for (const BorderRing& ring : rings)
         for (std::size_t i = 0; i < ring.size(); ++i) {
             const DrawingPoint from = ring[i];
             const DrawingPoint to = ring[i + 1 == ring.size() ? 0 : i + 1];
@@ -74,7 +74,7 @@ void add_border_points(
 }
 
 void add_inner_points(
-    const std::vector<PointChain>& rings,
+    const std::vector<BorderRing>& rings,
     const Extent& extent,
     double spacing,
     std::vector<DrawingPoint>& points) {
@@ -82,7 +82,7 @@ void add_inner_points(
     const auto rows = static_cast<std::size_t>((extent.most.y - extent.least.y) / spacing) + 1;
     std::vector<std::vector<double>> crossings(rows);
     const double top = extent.least.y;
-    for (const PointChain& ring : rings)
+    for (const BorderRing& ring : rings)
         for (std::size_t i = 0; i < ring.size(); ++i) {
             DrawingPoint from = ring[i];
             DrawingPoint to = ring[i + 1 == ring.size() ? 0 : i + 1];
@@ -161,13 +161,17 @@ bool bends(const Gradient& gradient, double spacing) {
 class RegionPainter {
 public:
     RegionPainter(
-        const ColorField& field, const PaintTolerance& tolerance, const CancelFlag* cancel)
+        const ColorField& field,
+        const PaintTolerance& tolerance,
+        std::span<const DrawingEllipse> curves,
+        const CancelFlag* cancel)
         : field_(field)
         , tolerance_(tolerance)
+        , curves_(curves)
         , cancel_(cancel) {}
 
     void paint(PaintedRegion region, int cuts) {
-        const double length = extent_of(region.outline.rings).length();
+        const double length = extent_of(region.rings).length();
         if (!(length > 0))
             return;
         std::vector<ColorSample> samples;
@@ -183,7 +187,7 @@ public:
         PaintedRegion first = part_of(region, *half, moved(*half, overlap));
         // It goes on below the other part, which is painted later.
         std::ranges::move(
-            cut_rings(cut_rings(region.outline.rings, rest), moved(*half, overlap)),
+            cut_rings(cut_rings(region.rings, rest), moved(*half, overlap)),
             std::back_inserter(first.below));
         paint(std::move(first), cuts + 1);
         paint(part_of(region, rest, rest), cuts + 1);
@@ -204,7 +208,7 @@ private:
         int cuts,
         std::vector<ColorSample>& samples) const {
         constexpr double pixel = 1;
-        const double fine = sample_spacing(length, area_of(region.outline.rings));
+        const double fine = sample_spacing(length, area_of(region.rings));
         const double coarse = std::max(length / 12, fine);
         samples = samples_of(region, coarse);
         if (cuts == 0 && length < pixel)
@@ -223,8 +227,7 @@ private:
 
     std::vector<ColorSample> samples_of(const PaintedRegion& region, double spacing) const {
         stop_if_raised(cancel_);
-        return color_samples(
-            sample_points(region.outline.rings, spacing), field_, tolerance_.within);
+        return color_samples(sample_points(region.rings, spacing), field_, tolerance_.within);
     }
 
     FittedPaint best_paint(std::span<const ColorSample> samples) const {
@@ -280,7 +283,7 @@ private:
         part.outline.id = region.outline.id;
         part.outline.name = region.outline.name;
         part.outline.group = region.outline.group;
-        part.outline.rings = cut_rings(region.outline.rings, half);
+        part.rings = cut_rings(region.rings, half);
         part.outline.seams = cut_lines(region.outline.seams, half);
         part.below = cut_rings(region.below, half_below);
         return part;
@@ -289,17 +292,24 @@ private:
     void finish(PaintedRegion region, const FittedPaint& paint) {
         region.outline.color = paint.color;
         region.outline.gradient = paint.gradient;
-        std::ranges::move(region.below, std::back_inserter(region.outline.rings));
+        add_rings(region, curves_);
         painted_.push_back(std::move(region.outline));
     }
 
     const ColorField& field_;
     const PaintTolerance& tolerance_;
+    std::span<const DrawingEllipse> curves_;
     const CancelFlag* cancel_;
     std::vector<FilledOutline> painted_;
 };
 
 } // namespace
+
+void add_rings(PaintedRegion& region, std::span<const DrawingEllipse> curves) {
+    for (const std::vector<BorderRing>* rings : {&region.rings, &region.below})
+        for (const BorderRing& ring : *rings)
+            add_ring(ring, curves, region.outline);
+}
 
 double sample_spacing(double length, double area) {
     constexpr double widest = 6; // pixels: highlights are not much smaller
@@ -307,7 +317,7 @@ double sample_spacing(double length, double area) {
     return std::max(std::min({length / 4, across, widest}), length / 128);
 }
 
-std::vector<DrawingPoint> sample_points(const std::vector<PointChain>& rings, double spacing) {
+std::vector<DrawingPoint> sample_points(const std::vector<BorderRing>& rings, double spacing) {
     std::vector<DrawingPoint> points;
     add_border_points(rings, spacing, points);
     add_inner_points(rings, extent_of(rings), spacing, points);
@@ -318,8 +328,9 @@ std::vector<FilledOutline> painted(
     PaintedRegion region,
     const ColorField& field,
     const PaintTolerance& tolerance,
+    std::span<const DrawingEllipse> curves,
     const CancelFlag* cancel) {
-    RegionPainter painter(field, tolerance, cancel);
+    RegionPainter painter(field, tolerance, curves, cancel);
     painter.paint(std::move(region), 0);
     return painter.take();
 }

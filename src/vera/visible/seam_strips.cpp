@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/seam_strips.h"
 
+#include "vera/drawing/elliptic_arc.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -23,7 +25,7 @@ double dot(DrawingPoint a, DrawingPoint b) {
 }
 
 /// Where the straight part of the border from that point on ends.
-std::size_t end_of_straight(std::span<const DrawingPoint> border, std::size_t first) {
+std::size_t end_of_straight(std::span<const BorderPoint> border, std::size_t first) {
     std::size_t last = first + 1;
     for (; last + 1 < border.size(); ++last) {
         const DrawingPoint chord = way_from(border[first], border[last + 1]);
@@ -40,8 +42,8 @@ std::size_t end_of_straight(std::span<const DrawingPoint> border, std::size_t fi
 }
 
 /// What of the areas lies close to the chord.
-std::vector<PointChain>
-strips_along(DrawingPoint from, DrawingPoint to, const std::vector<PointChain>& areas) {
+std::vector<BorderRing>
+strips_along(DrawingPoint from, DrawingPoint to, const std::vector<BorderRing>& areas) {
     const DrawingPoint chord = way_from(from, to);
     const double length = std::sqrt(dot(chord, chord));
     if (!(length > 0))
@@ -54,7 +56,7 @@ strips_along(DrawingPoint from, DrawingPoint to, const std::vector<PointChain>& 
         {back(along), strip_width - dot(along, from)},
         {across, dot(across, from) + strip_width + straight},
         {back(across), strip_width + straight - dot(across, from)}};
-    std::vector<PointChain> left = cut_rings(areas, sides[0]);
+    std::vector<BorderRing> left = cut_rings(areas, sides[0]);
     for (std::size_t i = 1; i < 4; ++i)
         left = cut_rings(left, sides[i]);
     return left;
@@ -62,9 +64,29 @@ strips_along(DrawingPoint from, DrawingPoint to, const std::vector<PointChain>& 
 
 } // namespace
 
-std::vector<PointChain>
-seam_strips(std::span<const DrawingPoint> border, const std::vector<PointChain>& neighbour) {
-    std::vector<PointChain> strips;
+void reach_back(
+    std::span<const BorderPoint> border,
+    const BorderCurves& curves,
+    std::vector<BorderRing>& strips) {
+    const auto angle = [&](const BorderPoint& point, std::uint32_t curve) {
+        return nearest_degrees(curves.all()[curve], point);
+    };
+    for (std::size_t i = 0; i + 1 < border.size(); ++i) {
+        const std::uint32_t curve = border[i].curve;
+        if (curve == no_curve || (i > 0 && border[i - 1].curve == curve))
+            continue;
+        // What is left of the border lies within the curve where it goes on towards larger angles.
+        const bool is_within = turned(angle(border[i], curve), angle(border[i + 1], curve)) > 0;
+        for (BorderRing& strip : strips)
+            for (BorderPoint& point : strip)
+                if (point.curve == curve)
+                    point.curve = is_within ? curves.smaller(curve) : curves.larger(curve);
+    }
+}
+
+std::vector<BorderRing>
+seam_strips(std::span<const BorderPoint> border, const std::vector<BorderRing>& neighbour) {
+    std::vector<BorderRing> strips;
     for (std::size_t first = 0; first + 1 < border.size();) {
         const std::size_t last = end_of_straight(border, first);
         std::ranges::move(

@@ -17,14 +17,9 @@ namespace vera {
 namespace {
 
 std::vector<FilledOutline> shaded_outline(LitOutline lit, const ShadedScene& shaded) {
-    PaintedRegion region;
-    const auto first_below = lit.outline.rings.begin() + static_cast<std::ptrdiff_t>(lit.own_rings);
-    std::move(first_below, lit.outline.rings.end(), std::back_inserter(region.below));
-    lit.outline.rings.erase(first_below, lit.outline.rings.end());
-    region.outline = std::move(lit.outline);
     const RegionLight light(
         shaded.scene, shaded.camera, shaded.picture, shaded.facets, lit.facet, lit.lights);
-    return painted(std::move(region), light, shaded.tolerance, shaded.cancel);
+    return painted(std::move(lit.region), light, shaded.tolerance, shaded.curves, shaded.cancel);
 }
 
 /// Where the rays of the picture go up.
@@ -54,7 +49,11 @@ shaded_outlines(std::vector<LitOutline> outlines, const ShadedScene& shaded) {
         if (shaded.progress)
             shaded.progress(static_cast<double>(done) / static_cast<double>(outlines.size()));
     });
+    std::size_t count = 0;
+    for (const std::vector<FilledOutline>& of_one : parts)
+        count += of_one.size();
     std::vector<FilledOutline> all;
+    all.reserve(count);
     for (std::vector<FilledOutline>& of_one : parts)
         std::ranges::move(of_one, std::back_inserter(all));
     return all;
@@ -76,14 +75,14 @@ DrawnFirmament drawn_firmament(
         direction.y = std::max(direction.y, 0.0); // on the horizon, after rounding
         return clamped(firmament_color(picture.firmament, direction));
     };
-    const std::vector<PointChain> frame = {{{0, 0}, {width, 0}, {width, height}, {0, height}}};
+    const std::vector<BorderRing> frame = {{{0, 0}, {width, 0}, {width, height}, {0, height}}};
     const HalfPlane above = above_horizon(camera, picture);
     const HalfPlane below = {{-above.normal.x, -above.normal.y}, -above.reach};
     PaintedRegion region;
     region.outline.id = region.outline.group = "sky";
-    region.outline.rings = cut_rings(frame, above);
-    if (!region.outline.rings.empty())
-        drawn.sky = painted(std::move(region), sky, tolerance, cancel);
+    region.rings = cut_rings(frame, above);
+    if (!region.rings.empty())
+        drawn.sky = painted(std::move(region), sky, tolerance, {}, cancel);
     const bool shows_earth = !cut_rings(frame, below).empty();
     if (shows_earth) {
         const ColorSample earth = {{}, picture.firmament->earth};

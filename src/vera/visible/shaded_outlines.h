@@ -10,17 +10,16 @@
 #include "vera/visible/region_light.h"
 #include "vera/visible/region_paint.h"
 
-#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace vera {
 
 /// An outline of one face, and what its light depends on.
 struct LitOutline {
-    FilledOutline outline;
-    std::size_t own_rings = 0; ///< the first of its rings: those within which the face is seen
-    std::uint32_t facet = 0;   ///< of the face
+    PaintedRegion region;
+    std::uint32_t facet = 0; ///< of the face
     LightSet lights = all_lights;
 };
 
@@ -31,6 +30,7 @@ struct ShadedScene {
     const PictureSettings& picture;
     const Facets& facets;
     PaintTolerance tolerance;
+    std::span<const DrawingEllipse> curves = {}; ///< of the outlines' sides
     Progress progress = {};
     const CancelFlag* cancel = nullptr;
 };

@@ -7,10 +7,59 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <iterator>
 #include <span>
 
 namespace vera {
+
+namespace {
+
+constexpr std::size_t most_corners = 1024; // of a neighbour: else strips take too long
+
+/// Calls visit(border, what is seen across) for each part of the region's rings beyond which one
+/// that is painted later lies: consecutive points.
+template <typename Visit>
+void for_each_border_with_later(
+    const RegionOutlines& regions,
+    std::size_t number,
+    const std::vector<BorderRing>& rings,
+    const Visit& visit) {
+    const auto own = regions.rings(number);
+    for (std::size_t i = 0; i < own.size(); ++i) {
+        BorderRing points = rings[i];
+        points.push_back(points.front());
+        const auto across = [&](std::size_t side) {
+            return regions.map().ring_across[own[i].first + side];
+        };
+        for (std::size_t side = 0, end = 0; side + 1 < points.size(); side = end) {
+            for (end = side + 1; end + 1 < points.size() && across(end) == across(side);)
+                ++end;
+            if (across(side) != no_region && across(side) > number)
+                visit(std::span(points).subspan(side, end - side + 1), across(side));
+        }
+    }
+}
+
+/// Lets the region go on below that neighbour close to the border that they have in common.
+void go_on_closely(
+    const RegionOutlines& regions,
+    std::span<const BorderPoint> border,
+    std::size_t neighbour,
+    PaintedRegion& region) {
+    std::vector<BorderRing> strips = seam_strips(border, regions.borders(neighbour));
+    reach_back(border, regions.curves(), strips);
+    std::ranges::move(strips, std::back_inserter(region.below));
+}
+
+/// Whether one may shine through at the other's far border without being seen.
+bool are_alike(DrawingColor a, DrawingColor b) {
+    constexpr int alike = 24; // of 255: a quarter of it shines through at most
+    return std::abs(a.r - b.r) <= alike && std::abs(a.g - b.g) <= alike
+        && std::abs(a.b - b.b) <= alike;
+}
+
+} // namespace
 
 std::vector<bool>
 covering_whole(const RegionOutlines& regions, const Progress& progress, const CancelFlag* cancel) {
@@ -20,11 +69,9 @@ covering_whole(const RegionOutlines& regions, const Progress& progress, const Ca
     const LongLoop loop(regions.count(), progress, cancel);
     for (std::size_t number = 0; number < regions.count(); ++number) {
         loop.turn(number);
-        FilledOutline outline;
-        regions.add_rings(number, outline);
         double doubled_area = 0;
         double length = 0;
-        for (const std::vector<DrawingPoint>& ring : outline.rings)
+        for (const BorderRing& ring : regions.borders(number))
             for (std::size_t i = 0; i < ring.size(); ++i) {
                 const DrawingPoint& a = ring[i];
                 const DrawingPoint& b = ring[i + 1 == ring.size() ? 0 : i + 1];
@@ -42,54 +89,33 @@ covering_whole(const RegionOutlines& regions, const Progress& progress, const Ca
 void cover_seams(
     const RegionOutlines& regions,
     const std::vector<bool>& is_covering_whole,
-    std::size_t region,
-    FilledOutline& outline) {
-    const auto own = regions.rings(region);
+    std::span<const DrawingColor> colors,
+    std::size_t number,
+    PaintedRegion& region) {
     std::vector<std::uint32_t> below;
-    const std::size_t own_rings = outline.rings.size();
-    for (std::size_t i = 0; i < own_rings; ++i) {
-        const std::vector<DrawingPoint> points = outline.rings[i];
-        for (std::size_t j = 0; j < points.size(); ++j) {
-            const std::uint32_t across = regions.map().ring_across[own[i].first + j];
-            if (across == no_region || across <= region)
-                continue;
-            if (!is_covering_whole[across]) {
-                outline.seams.push_back({points[j], points[j + 1 == points.size() ? 0 : j + 1]});
-            } else if (std::find(below.begin(), below.end(), across) == below.end()) {
-                below.push_back(across);
-                regions.add_rings(across, outline);
-            }
+    const auto cover = [&](std::span<const BorderPoint> border, std::uint32_t across) {
+        if (!is_covering_whole[across]) {
+            region.outline.seams.emplace_back(border.begin(), border.end());
+        } else if (
+            !are_alike(colors[number], colors[across])
+            && regions.corner_count(across) <= most_corners) {
+            go_on_closely(regions, border, across, region);
+        } else if (std::find(below.begin(), below.end(), across) == below.end()) {
+            below.push_back(across);
+            std::ranges::move(regions.borders(across), std::back_inserter(region.below));
         }
-    }
+    };
+    for_each_border_with_later(regions, number, region.rings, cover);
 }
 
-void cover_seams_closely(
-    const RegionOutlines& regions, std::size_t region, FilledOutline& outline) {
-    constexpr std::size_t most_corners = 1024; // of a neighbour: else strips take too long
-    const auto own = regions.rings(region);
-    const std::size_t own_rings = outline.rings.size();
-    for (std::size_t i = 0; i < own_rings; ++i) {
-        std::vector<DrawingPoint> points = outline.rings[i];
-        points.push_back(points.front());
-        const auto across = [&](std::size_t side) {
-            return regions.map().ring_across[own[i].first + side];
-        };
-        for (std::size_t side = 0, end = 0; side + 1 < points.size(); side = end) {
-            for (end = side + 1; end + 1 < points.size() && across(end) == across(side);)
-                ++end;
-            if (across(side) == no_region || across(side) <= region)
-                continue;
-            const std::span border = std::span(points).subspan(side, end - side + 1);
-            if (regions.corner_count(across(side)) > most_corners) {
-                outline.seams.emplace_back(border.begin(), border.end());
-                continue;
-            }
-            FilledOutline neighbour;
-            regions.add_rings(across(side), neighbour);
-            std::ranges::move(
-                seam_strips(border, neighbour.rings), std::back_inserter(outline.rings));
-        }
-    }
+void cover_seams_closely(const RegionOutlines& regions, std::size_t number, PaintedRegion& region) {
+    const auto cover = [&](std::span<const BorderPoint> border, std::uint32_t across) {
+        if (regions.corner_count(across) > most_corners)
+            region.outline.seams.emplace_back(border.begin(), border.end());
+        else
+            go_on_closely(regions, border, across, region);
+    };
+    for_each_border_with_later(regions, number, region.rings, cover);
 }
 
 } // namespace vera

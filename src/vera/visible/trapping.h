@@ -6,8 +6,10 @@
 #include "vera/base/parallel.h"
 #include "vera/drawing/drawing.h"
 #include "vera/visible/region_outlines.h"
+#include "vera/visible/region_paint.h"
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace vera {
@@ -19,17 +21,19 @@ std::vector<bool> covering_whole(
     const Progress& progress = {},
     const CancelFlag* cancel = nullptr);
 
-/// Lets the outline of the region, which has its rings and no others, go on below those beside it
-/// that are painted later: below all of those that are covering whole, which moves no silhouette;
-/// below the others as a seam.
+/// Lets the region of that number, painted, which has its rings, go on below those beside it that
+/// are painted later: below all of those that are covering whole, which moves no silhouette, or,
+/// where that would mix another colour into what lies beyond them, close to the common border;
+/// below the others as a seam. The colours are those of all regions.
 void cover_seams(
     const RegionOutlines& regions,
     const std::vector<bool>& is_covering_whole,
-    std::size_t region,
-    FilledOutline& outline);
+    std::span<const DrawingColor> colors,
+    std::size_t number,
+    PaintedRegion& region);
 
 /// The same for areas that change their colours from place to place: a region goes on below those
 /// beside it only close to their common border, whatever their size.
-void cover_seams_closely(const RegionOutlines& regions, std::size_t region, FilledOutline& outline);
+void cover_seams_closely(const RegionOutlines& regions, std::size_t number, PaintedRegion& region);
 
 } // namespace vera

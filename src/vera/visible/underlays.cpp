@@ -67,7 +67,7 @@ std::vector<FilledOutline> underlays(
         underlay.id = "underlay";
         underlay.color = sums[i].mean();
         for (const std::vector<std::uint32_t>& ring : areas.outlines[i])
-            regions.add_ring(ring, underlay);
+            regions.add_way(ring, underlay);
     }
     return result;
 }

@@ -311,8 +311,10 @@ void fill_map(
             done[way] = 1;
             const std::uint32_t after = next[way];
             const bool is_joined = ways.to(way) != ways.from(after);
-            if (is_joined)
+            if (is_joined) {
+                map.joined_sides.push_back(map.ring_vertices.size());
                 add(ways.to(way), no_region);
+            }
             if (is_joined || !is_straight_on(ways.direction(way), ways.direction(after))
                 || ways.region[way ^ 1U] != ways.region[after ^ 1U])
                 add(ways.from(after), ways.region[after ^ 1U]);

@@ -45,6 +45,7 @@ struct VisibleMap {
     /// cut; else two surfaces may part what is seen along lines a step from each other, between
     /// which neither is seen for sure.
     std::size_t joined = 0;
+    std::vector<std::size_t> joined_sides; ///< the straight ways: where they begin in ring_vertices
 
     /// The source, or no_source, that ring_across[place] is a region of.
     std::uint32_t source_across(std::size_t place) const {

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vera/visible/draw_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "scene/make_scene.h"
+#include "visible/painted_color.h"
+#include <gtest/gtest.h>
+
+namespace vera {
+namespace {
+
+using test::add;
+using test::add_polygon;
+
+Camera camera_from_the_front() {
+    Camera camera;
+    camera.projection = Camera::Projection::parallel;
+    camera.direction = {0, 0, -1};
+    camera.lower_left = {-3, -3, 0};
+    camera.lower_right = {3, -3, 0};
+    camera.upper_left = {-3, 3, 0};
+    return camera;
+}
+
+constexpr double per_unit = 512 / 6.0; // pixels
+
+/// A wall of that grey between two heights.
+void add_wall(Scene& scene, double from, double to, double grey) {
+    Material material;
+    material.sdi = {grey, grey, grey};
+    add_polygon(scene.geometry, {{-2, from, 0}, {2, from, 0}, {2, to, 0}, {-2, to, 0}});
+    scene.geometry.items.back().material = static_cast<MaterialId>(scene.materials.size());
+    scene.materials.push_back(material);
+}
+
+/// Whether the outline of face number i, the underlay left out, covers the point at that height.
+bool goes_below(const Drawing& drawing, std::size_t i, double height) {
+    const DrawingPoint at = {256.3, 256 - height};
+    return testing::turns_about(testing::flattened_rings(drawing.fills[i]), at) != 0;
+}
+
+TEST(DrawnSeams, MixNoOtherColorIntoWhatLiesBeyondAThinNeighbour) {
+    // Above, below, and between them, painted last, a strip of 8 pixels, of another colour than
+    // what is below it or of much the same.
+    for (const bool is_alike : {false, true}) {
+        Scene scene;
+        const double width = 8 / per_unit;
+        add_wall(scene, width, 2, 0.5);
+        add_wall(scene, -2, 0, is_alike ? 0.85 : 0.1);
+        add_wall(scene, 0, width, 0.9);
+        number_primitives(scene);
+        DrawSettings settings;
+        const Drawing drawing = draw_scene(scene, camera_from_the_front(), {}, settings).drawing;
+        ASSERT_EQ(drawing.fills.size(), 4U);
+        ASSERT_EQ(drawing.fills[0].id, "underlay");
+        ASSERT_EQ(drawing.fills[2].id, "face-2");
+        EXPECT_TRUE(goes_below(drawing, 2, -1)) << is_alike;
+        EXPECT_TRUE(goes_below(drawing, 2, 0.6)) << is_alike; // below the strip near it
+        EXPECT_EQ(goes_below(drawing, 2, 7.4), is_alike);     // and not as far as what is above
+        EXPECT_FALSE(goes_below(drawing, 2, 9)) << is_alike;
+    }
+}
+
+} // namespace
+} // namespace vera
