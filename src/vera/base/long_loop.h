@@ -4,6 +4,7 @@
 #include "vera/base/parallel.h"
 
 #include <cstddef>
+#include <mutex>
 #include <utility>
 
 namespace vera {
@@ -46,5 +47,28 @@ private:
     Progress progress_;
     const CancelFlag* cancel_;
 };
+
+/// The same of all threads: calls turn(number) for each number below the count, `every` of which in
+/// a row are one thread's. Throws Cancelled.
+template <typename Turn>
+void long_parallel_loop(
+    std::size_t turns,
+    const Progress& progress,
+    const CancelFlag* cancel,
+    std::size_t every,
+    const Turn& turn) {
+    std::mutex mutex;
+    std::size_t done = 0;
+    parallel_ranges(turns, every, [&](std::size_t first, std::size_t last) {
+        stop_if_raised(cancel);
+        for (std::size_t number = first; number < last; ++number)
+            turn(number);
+        if (!progress)
+            return;
+        const std::lock_guard lock(mutex);
+        done += last - first;
+        progress(static_cast<double>(done) / static_cast<double>(turns));
+    });
+}
 
 } // namespace vera

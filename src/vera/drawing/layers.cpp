@@ -61,19 +61,17 @@ Layers layers(
     const CancelFlag* cancel) {
     StageProgress stages(progress, 3);
     Layers result;
-    PassedPoints passed;
-    const LongLoop fills(drawing.fills.size(), stages.next(1), cancel, 256);
-    for (std::size_t i = 0; i < drawing.fills.size(); ++i) {
-        fills.turn(i);
+    result.fills.resize(drawing.fills.size());
+    long_parallel_loop(drawing.fills.size(), stages.next(1), cancel, 256, [&](std::size_t i) {
         const FilledOutline& fill = drawing.fills[i];
-        FilledPath path = {&fill, snapped_rings(fill, lattice), {}};
-        if (path.rings.empty())
-            continue;
-        if (settings.cover_seams)
-            path.seams = joined_seams(fill, lattice);
+        result.fills[i] = {&fill, snapped_rings(fill, lattice), {}};
+        if (settings.cover_seams && !result.fills[i].rings.empty())
+            result.fills[i].seams = joined_seams(fill, lattice);
+    });
+    std::erase_if(result.fills, [](const FilledPath& path) { return path.rings.empty(); });
+    PassedPoints passed;
+    for (const FilledPath& path : result.fills)
         passed.add(path.seams);
-        result.fills.push_back(std::move(path));
-    }
     const double seam_width = settings.seam_width * lattice.units_per_pixel();
     VERA_CHECK(seam_width >= 0 && std::isfinite(seam_width));
     const LongLoop seams(result.fills.size(), stages.next(1), cancel, 256);

@@ -5,8 +5,11 @@
 #include "vera/drawing/elliptic_arc.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <cstdlib>
 #include <utility>
 
 namespace vera::detail {
@@ -277,20 +280,24 @@ std::optional<SnappedPath> snapped_line(const Stroke& stroke, const Lattice& lat
 }
 
 std::string decimal(std::int64_t units, int digits) {
-    std::string text = std::to_string(units < 0 ? -units : units);
-    const auto behind = static_cast<std::size_t>(digits);
-    if (text.size() < behind)
-        text.insert(0, behind - text.size(), '0');
-    std::string fraction = text.substr(text.size() - behind);
-    fraction.erase(fraction.find_last_not_of('0') + 1);
-    std::string number = text.substr(0, text.size() - behind);
-    if (number == "0")
-        number.clear();
-    if (!fraction.empty())
-        number.append(".").append(fraction);
-    if (number.empty())
+    std::array<char, 20> text; // of 2^63 - 1
+    const char* const begin = text.data();
+    const char* end = std::to_chars(text.data(), text.data() + text.size(), std::abs(units)).ptr;
+    const std::ptrdiff_t before_point = end - begin - digits; // less than 0: so many zeros follow
+    const char* const point = begin + std::max<std::ptrdiff_t>(before_point, 0);
+    while (end > point && end[-1] == '0')
+        --end;
+    if (end == begin)
         return "0";
-    return units < 0 ? "-" + number : number;
+    std::string number(units < 0 ? "-" : "");
+    number.append(begin, point);
+    if (end > point) {
+        number += '.';
+        if (before_point < 0)
+            number.append(static_cast<std::size_t>(-before_point), '0');
+        number.append(point, end);
+    }
+    return number;
 }
 
 std::string decimal(double number, int digits) {

@@ -5,6 +5,7 @@
 #include "vera/drawing/layers.h"
 #include "vera/drawing/paints.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <string_view>
@@ -192,19 +193,40 @@ private:
             if (group && !group->empty())
                 text_ += "</g>\n";
         };
-        const LongLoop loop(layers_.fills.size(), stages_.next(1), cancel_, 256);
+        // The paths in several threads, of so many fills at a time that they take no room.
+        constexpr std::size_t block = 4096;
+        std::vector<FillData> data;
+        const LongLoop loop(layers_.fills.size(), stages_.next(1), cancel_, block);
         for (std::size_t i = 0; i < layers_.fills.size(); ++i) {
             loop.turn(i);
+            if (i % block == 0)
+                data = fill_data(std::span(layers_.fills)
+                                     .subspan(i)
+                                     .first(std::min(block, layers_.fills.size() - i)));
             const FilledPath& fill = layers_.fills[i];
             if (!group || fill.outline->group != *group) {
                 end_group();
                 group = &fill.outline->group;
                 begin_group(*group);
             }
-            write_fill(fill);
+            write_fill(fill, data[i % block]);
         }
         end_group();
         text_ += "</g>\n";
+    }
+
+    struct FillData {
+        std::string rings;
+        std::string seams;
+    };
+
+    std::vector<FillData> fill_data(std::span<const FilledPath> fills) const {
+        std::vector<FillData> data(fills.size());
+        parallel_ranges(fills.size(), 256, [&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i)
+                data[i] = {path_data(fills[i].rings), path_data(fills[i].seams)};
+        });
+        return data;
     }
 
     void begin_group(const std::string& group) {
@@ -215,7 +237,7 @@ private:
         write_element("title", group);
     }
 
-    void write_fill(const FilledPath& fill) {
+    void write_fill(const FilledPath& fill, const FillData& data) {
         const FilledOutline& outline = *fill.outline;
         const std::string paint = outline.gradient
             ? fmt::format("url(#{})", gradient_ids_[gradients_.number_of(*outline.gradient)])
@@ -223,13 +245,13 @@ private:
         text_ += "<path";
         if (!outline.id.empty())
             text_ += fmt::format(R"( id="{}")", ids_.take(outline.id));
-        text_ += fmt::format(R"( fill="{}" d="{}")", paint, path_data(fill.rings));
+        text_ += fmt::format(R"( fill="{}" d="{}")", paint, data.rings);
         text_ += outline.name.empty()
             ? "/>\n"
             : fmt::format("><title>{}</title></path>\n", xml_text(outline.name));
         if (!fill.seams.empty())
-            text_ += fmt::format(
-                "<path class=\"seam\" stroke=\"{}\" d=\"{}\"/>\n", paint, path_data(fill.seams));
+            text_ +=
+                fmt::format("<path class=\"seam\" stroke=\"{}\" d=\"{}\"/>\n", paint, data.seams);
     }
 
     void write_lines(const LineLayer& layer, const std::string& id) {

@@ -102,11 +102,9 @@ std::vector<DrawingColor> colors_of(
     const Progress& progress,
     const CancelFlag* cancel) {
     std::vector<DrawingColor> colors(regions.count());
-    const LongLoop loop(regions.count(), progress, cancel, 256);
-    for (std::size_t i = 0; i < regions.count(); ++i) {
-        loop.turn(i);
+    long_parallel_loop(regions.count(), progress, cancel, 256, [&](std::size_t i) {
         colors[i] = region_color(sources, regions.rings(i));
-    }
+    });
     return colors;
 }
 
@@ -121,20 +119,17 @@ void add_flat(
     OutlineNames names(sources.scene);
     const std::vector<bool> is_covering_whole = covering_whole(regions, stages.next(1), cancel);
     const std::vector<DrawingColor> colors = colors_of(sources, regions, stages.next(2), cancel);
-    std::vector<FilledOutline> fills;
-    fills.reserve(regions.count());
-    const LongLoop loop(regions.count(), stages.next(3), cancel, 256);
+    std::vector<FilledOutline> fills(regions.count());
     for (std::size_t i = 0; i < regions.count(); ++i) {
-        loop.turn(i);
-        PaintedRegion region;
-        region.outline.color = colors[i];
-        names.name(
-            sources.facets.triangles[facet_of(sources, regions, i)].primitive, region.outline);
-        region.rings = regions.borders(i);
+        fills[i].color = colors[i];
+        names.name(sources.facets.triangles[facet_of(sources, regions, i)].primitive, fills[i]);
+    }
+    long_parallel_loop(regions.count(), stages.next(3), cancel, 256, [&](std::size_t i) {
+        PaintedRegion region = {std::move(fills[i]), regions.borders(i), {}};
         cover_seams(regions, is_covering_whole, colors, i, region);
         add_rings(region, regions.curves().all());
-        fills.push_back(std::move(region.outline));
-    }
+        fills[i] = std::move(region.outline);
+    });
     drawing.fills = underlays(regions, fills, stages.next(4), cancel);
     drawing.fills.reserve(drawing.fills.size() + fills.size());
     std::ranges::move(fills, std::back_inserter(drawing.fills));
@@ -148,16 +143,14 @@ void add_numbers(
     const Progress& progress,
     const CancelFlag* cancel,
     Drawing& drawing) {
-    drawing.fills.reserve(regions.count());
-    const LongLoop loop(regions.count(), progress, cancel, 256);
-    for (std::size_t i = 0; i < regions.count(); ++i) {
-        loop.turn(i);
+    drawing.fills.resize(regions.count());
+    long_parallel_loop(regions.count(), progress, cancel, 256, [&](std::size_t i) {
         PaintedRegion region;
         region.outline.color = region_color(sources, regions.rings(i));
         region.rings = regions.borders(i);
         add_rings(region, regions.curves().all());
-        drawing.fills.push_back(std::move(region.outline));
-    }
+        drawing.fills[i] = std::move(region.outline);
+    });
 }
 
 /// Numbers are exact: what is compared with rays is what is written.

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <mutex>
 #include <span>
 #include <utility>
 
@@ -36,18 +35,8 @@ HalfPlane above_horizon(const Camera& camera, const PictureSettings& picture) {
 std::vector<FilledOutline>
 shaded_outlines(std::vector<LitOutline> outlines, const ShadedScene& shaded) {
     std::vector<std::vector<FilledOutline>> parts(outlines.size());
-    constexpr std::size_t grain = 16;
-    std::mutex mutex;
-    std::size_t done = 0;
-    parallel_ranges(outlines.size(), grain, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) {
-            stop_if_raised(shaded.cancel);
-            parts[i] = shaded_outline(std::move(outlines[i]), shaded);
-        }
-        const std::lock_guard lock(mutex);
-        done += last - first;
-        if (shaded.progress)
-            shaded.progress(static_cast<double>(done) / static_cast<double>(outlines.size()));
+    long_parallel_loop(outlines.size(), shaded.progress, shaded.cancel, 16, [&](std::size_t i) {
+        parts[i] = shaded_outline(std::move(outlines[i]), shaded);
     });
     std::size_t count = 0;
     for (const std::vector<FilledOutline>& of_one : parts)
