@@ -65,5 +65,69 @@ TEST(DrawnSeams, MixNoOtherColorIntoWhatLiesBeyondAThinNeighbour) {
     }
 }
 
+/// A ring of quarter circles about the axis.
+RotationalShape ring(Vec3 axis, double radius, double r) {
+    RotationalShape shape;
+    shape.axis = normalized(axis);
+    shape.start = {radius, -r};
+    const auto arc_to = [&](ContourPiece::Point control, ContourPiece::Point end) {
+        ContourPiece piece;
+        piece.kind = ContourPiece::Kind::conic;
+        piece.control[0] = control;
+        piece.weight = std::sqrt(0.5);
+        piece.end = end;
+        shape.contour.push_back(piece);
+    };
+    arc_to({radius + r, -r}, {radius + r, 0});
+    arc_to({radius + r, r}, {radius, r});
+    arc_to({radius - r, r}, {radius - r, 0});
+    arc_to({radius - r, -r}, {radius, -r});
+    return shape;
+}
+
+TEST(DrawnSeams, OfPiecesThatAreShadedFacetByFacetHaveTheirColorBelowRoughly) {
+    Scene scene;
+    add(scene.geometry, ring({0.3, 1, 0.8}, 1.5, 0.6));
+    number_primitives(scene);
+    PointLight light;
+    light.position = {5, 8, 9};
+    light.falloff = Falloff::none;
+    light.intensity = 1;
+    scene.lights.push_back(light);
+    PictureSettings picture;
+    picture.ambient = {0.2, 0.2, 0.2};
+    picture.shadows = false;
+    DrawSettings settings;
+    settings.style = DrawingStyle::shaded;
+    settings.deviation = 0.5;
+    const std::vector<FilledOutline> fills =
+        draw_scene(scene, camera_from_the_front(), picture, settings).drawing.fills;
+    std::vector<FilledOutline> underlays;
+    std::vector<FilledOutline> faces;
+    for (const FilledOutline& fill : fills)
+        (fill.id == "underlay" ? underlays : faces).push_back(fill);
+    ASSERT_FALSE(underlays.empty());
+    std::mt19937 random(1);
+    int compared = 0;
+    double off = 0;
+    double off_black = 0;
+    for (int i = 0; i < 3000; ++i) {
+        const DrawingPoint at = {
+            std::uniform_real_distribution(0.0, 512.0)(random),
+            std::uniform_real_distribution(0.0, 512.0)(random)};
+        const auto below = testing::painted_color(underlays, at);
+        const auto shown = testing::painted_color(faces, at);
+        // The outer half of the ring is convex: smooth faces.
+        if (below) {
+            ASSERT_TRUE(shown) << at.x << ' ' << at.y;
+            ++compared;
+            off += std::abs(below->g - shown->g);
+            off_black += shown->g;
+        }
+    }
+    EXPECT_GT(compared, 200);
+    EXPECT_LT(off, 0.7 * off_black);
+}
+
 } // namespace
 } // namespace vera

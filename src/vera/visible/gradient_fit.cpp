@@ -466,4 +466,17 @@ std::optional<FittedPaint> radial_fit(std::span<const ColorSample> samples, doub
     return with_stops(gradient, samples, tolerance);
 }
 
+FittedPaint best_fit(std::span<const ColorSample> samples, double tolerance) {
+    FittedPaint best = flat_fit(samples);
+    if (best.error <= tolerance)
+        return best;
+    if (FittedPaint linear = linear_fit(samples, tolerance); linear.error < best.error)
+        best = std::move(linear);
+    if (best.error <= tolerance)
+        return best;
+    if (auto radial = radial_fit(samples, tolerance); radial && radial->error < best.error)
+        best = std::move(*radial);
+    return best;
+}
+
 } // namespace vera

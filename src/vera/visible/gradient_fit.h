@@ -49,4 +49,7 @@ FittedPaint linear_fit(std::span<const ColorSample> samples, double tolerance);
 /// where there are no such ellipses.
 std::optional<FittedPaint> radial_fit(std::span<const ColorSample> samples, double tolerance);
 
+/// The first of these that is within the tolerance, or else the best.
+FittedPaint best_fit(std::span<const ColorSample> samples, double tolerance);
+
 } // namespace vera

@@ -7,6 +7,7 @@
 #include "vera/scene/surface.h"
 #include "vera/visible/drawn_borders.h"
 #include "vera/visible/face_color.h"
+#include "vera/visible/facet_underlays.h"
 #include "vera/visible/region_outlines.h"
 #include "vera/visible/shaded_outlines.h"
 #include "vera/visible/trapping.h"
@@ -83,6 +84,9 @@ void add_shaded(
     drawing.background = firmament.background;
     drawing.fills = std::move(firmament.sky);
     std::ranges::move(
+        facet_underlays(sources, regions, lit, stages.next(1), cancel),
+        std::back_inserter(drawing.fills));
+    std::ranges::move(
         shaded_outlines(
             std::move(lit),
             {sources.scene,
@@ -91,7 +95,7 @@ void add_shaded(
              sources.facets,
              tolerance,
              regions.curves().all(),
-             stages.next(9),
+             stages.next(8),
              cancel}),
         std::back_inserter(drawing.fills));
 }

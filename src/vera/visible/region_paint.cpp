@@ -232,17 +232,7 @@ private:
 
     FittedPaint best_paint(std::span<const ColorSample> samples) const {
         stop_if_raised(cancel_);
-        FittedPaint best = flat_fit(samples);
-        if (best.error <= tolerance_.color)
-            return best;
-        if (FittedPaint linear = linear_fit(samples, tolerance_.color); linear.error < best.error)
-            best = std::move(linear);
-        if (best.error <= tolerance_.color)
-            return best;
-        if (auto radial = radial_fit(samples, tolerance_.color);
-            radial && radial->error < best.error)
-            best = std::move(*radial);
-        return best;
+        return best_fit(samples, tolerance_.color);
     }
 
     /// Of a cut along the gradient that fits best and one across it, that whose parts fit better;
