@@ -318,7 +318,7 @@ TEST(SvgPathData, HasCurvesForShortAndForFlatArcs) {
         const double sweep = (is_short ? 1 + static_cast<double>(random() % 14)
                                        : 20 + static_cast<double>(random() % 341))
             * (random() % 2 == 0 ? 1 : -1);
-        const double begin = static_cast<double>(random() % 360);
+        const auto begin = static_cast<double>(random() % 360);
         const DrawingArc arc = {0, ellipse, begin, begin + sweep};
         const auto line = snapped_line(
             {.points = {point_at(ellipse, begin), point_at(ellipse, begin + sweep)}, .arcs = {arc}},

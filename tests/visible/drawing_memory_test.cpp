@@ -289,7 +289,9 @@ TEST(DrawingMemory, ADrawingTakesWhatIsForetold) {
         in_space(testing::terrain(1, 90)),
         in_space(testing::balls(1, 20, 24)),
         spheres(20)};
-    for (const auto& [scene, camera] : views) {
+    for (const SceneInView& view : views) {
+        const Scene& scene = view.scene;
+        const Camera& camera = view.camera;
         const double deviation = DrawSettings().deviation / picture.width;
         // What there is when the forecast is made.
         const long before = bytes;
@@ -396,7 +398,7 @@ TEST(DrawingMemory, ShadowsAreRefusedBeforeTheyAreThrown) {
 
 TEST(DrawingMemory, WhereItRunsOutTheDrawingEndsAndLeavesNothing) {
     const ThreadLimit one(1);
-    const auto [scene, camera] = in_space(testing::tangle(1, 12, 4));
+    const SceneInView view = in_space(testing::tangle(1, 12, 4));
     for (const DrawingStyle style :
          {DrawingStyle::shaded, DrawingStyle::hidden_lines, DrawingStyle::toon}) {
         const auto draw = [&] {
@@ -404,7 +406,7 @@ TEST(DrawingMemory, WhereItRunsOutTheDrawingEndsAndLeavesNothing) {
             settings.style = style;
             PictureSettings picture;
             picture.width = picture.height = 40;
-            const DrawnScene drawn = draw_scene(scene, camera, picture, settings);
+            const DrawnScene drawn = draw_scene(view.scene, view.camera, picture, settings);
             std::string text;
             write_svg(drawn.drawing, {}, text);
         };
