@@ -219,7 +219,8 @@ std::string sheet_svg(const Sheet& sheet) {
     svg += text_at(margin, 102, "text", "The same scene, with one effect more each time");
     for (std::size_t i = 0; i <= sheet.steps.size(); ++i) {
         const double x = margin + (i % 2 == 0 ? 0 : picture_width + gutter);
-        const double y = head_height + static_cast<double>(i / 2) * row_height;
+        const std::size_t row = i / 2;
+        const double y = head_height + static_cast<double>(row) * row_height;
         svg += i < sheet.steps.size() ? step_cell(sheet, i, x, y) : cost_cell(sheet, x, y);
     }
     return svg + "</svg>\n";

@@ -9,7 +9,7 @@
 namespace vera {
 namespace {
 
-Image grey(std::vector<std::uint8_t> levels) {
+Image grey(const std::vector<std::uint8_t>& levels) {
     std::vector<std::uint8_t> samples;
     for (const std::uint8_t level : levels)
         samples.insert(samples.end(), 3, level);

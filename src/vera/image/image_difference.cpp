@@ -50,7 +50,7 @@ ImageDifference difference(const Image& first, const Image& second) {
 
     ImageDifference result;
     result.image = {first.width, first.height, Samples(before.size())};
-    Samples& samples = std::get<Samples>(result.image.samples);
+    auto& samples = std::get<Samples>(result.image.samples);
     std::array<std::size_t, most_levels> counts = {};
     std::size_t sum = 0;
     for (std::size_t i = 0; i < samples.size(); ++i) {
