@@ -4,6 +4,7 @@
 #include "vera/scene/bounds.h"
 
 #include "command.h"
+#include "grid_picture.h"
 #include "interrupt.h"
 #include "messages.h"
 #include "prepared_scene.h"
@@ -18,6 +19,7 @@ namespace {
 
 struct Request {
     SceneRequest scene;
+    GridPictureRequest grid;
     bool json = false;
 };
 
@@ -170,6 +172,7 @@ void print_bvh(const IndexForecast& forecast, const WideBvhStatistics& bvh) {
 }
 
 void print_info(const Request& request, const Console& console) {
+    check_grid_picture(request.grid);
     const PreparedScene prepared = prepared_scene(request.scene);
     print_diagnostics(prepared.warnings, console);
     const GridSettings settings;
@@ -180,6 +183,8 @@ void print_info(const Request& request, const Console& console) {
     ProgressDisplay display(console, "index");
     const GridTreeStatistics grid =
         make_grid_tree(prepared.scene, settings, display.callback(), &console.cancel)->statistics();
+    if (!request.grid.path.empty())
+        write_grid_picture(prepared.scene, prepared.settings, request.grid, console);
     nlohmann::ordered_json json = scene_json(prepared.scene);
     if (request.json) {
         json["bvh"] = bvh_json(bvh_forecast, bvh);
@@ -201,10 +206,13 @@ void add_info_command(CLI::App& app, Console& console) {
     CLI::App* info = app.add_subcommand("info", "what a scene holds, and what its indexes take");
     add_scene_options(*info, request->scene);
     info->add_flag("--json", request->json, "the same as JSON");
+    add_grid_picture_options(*info, request->grid);
     add_console_options(*info, console);
     info->footer("Examples:\n"
                  "  vera info scene.vera\n"
-                 "  vera info bunny.obj --json");
+                 "  vera info bunny.obj --json\n"
+                 "  vera info scene.vera --draw-grid grid.svg --raster 900x700\n"
+                 "  vera info room.vera --draw-grid grid.png --grid-levels 2 --grid-cut 0.5");
 
     info->callback([request, &console] { print_info(*request, console); });
 }
