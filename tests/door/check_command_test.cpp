@@ -81,6 +81,65 @@ TEST(CheckCommand, NamesTheSceneThatHoldsNothing) {
         "a.vera: error: the scene holds nothing that could be framed\n  add some geometry\n");
 }
 
+TEST(CheckCommand, CountsNotesOfSolidsAndShowsThemWhenStrict) {
+    const ScratchFolder folder;
+    folder.write("a.vera", std::string(small_scene) + "CM grey\nP3 -1 -1 0  1 -1 0  0 1 0\n");
+    const ProgramRun run = run_vera(folder, "check a.vera");
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ(run.out, "a.vera: good, with 1 note (--strict shows it)\n");
+    EXPECT_EQ(run.err, "");
+    const ProgramRun strict = run_vera(folder, "check a.vera --strict");
+    EXPECT_EQ(strict.exit_code, 0);
+    EXPECT_EQ(strict.out, "a.vera: good, with 1 note\n");
+    EXPECT_EQ(
+        strict.err,
+        "a.vera:8:1: note: this face or mesh passes through that of line 4\n"
+        "    P3 -1 -1 0  1 -1 0  0 1 0\n"
+        "    ^~\n");
+    EXPECT_NE(
+        run_vera(folder, "check a.vera --strict --json").out.find("\"severity\": \"note\""),
+        std::string::npos);
+}
+
+TEST(CheckCommand, SpeaksOfAnInnerPointOnceAndOfTheFirstFewOfAKind) {
+    const ScratchFolder folder;
+    std::string text = std::string(small_scene)
+        + "IP 2.5 5 2.5  CM grey\n"
+          "P4 2 0 2  2 1 2  3 1 2  3 0 2\nP4 2 0 3  3 0 3  3 1 3  2 1 3\n"
+          "P4 2 0 2  3 0 2  3 0 3  2 0 3\nP4 2 1 2  2 1 3  3 1 3  3 1 2\n"
+          "P4 2 0 2  2 0 3  2 1 3  2 1 2\nP4 3 0 2  3 1 2  3 1 3  3 0 3\n";
+    folder.write("a.vera", text);
+    const ProgramRun run = run_vera(folder, "check a.vera");
+    EXPECT_EQ(run.err.find("inner point"), run.err.rfind("inner point is on")) << run.err;
+    EXPECT_NE(run.err.find("a.vera:11:1: warning: the inner point"), std::string::npos) << run.err;
+    for (int i = 0; i < 13; ++i)
+        text += "SP 9 9 9 1\n";
+    folder.write("b.vera", text);
+    const ProgramRun twice = run_vera(folder, "check b.vera");
+    EXPECT_NE(
+        twice.err.find("b.vera:15:1: warning: the same sphere stands in line 14 already\n"),
+        std::string::npos)
+        << twice.err;
+    EXPECT_NE(
+        twice.err.find("b.vera: warning: 2 more things that stand in the text twice\n"),
+        std::string::npos)
+        << twice.err;
+}
+
+TEST(CheckCommand, WarnsOfALightThatSomethingOpaqueSurrounds) {
+    const ScratchFolder folder;
+    folder.write("a.vera", std::string(small_scene) + "CM grey SP 3 6 5 0.5\n");
+    EXPECT_EQ(
+        run_vera(folder, "check a.vera").err,
+        "a.vera:7:9: warning: a light lies inside this sphere, which keeps it in\n"
+        "    CM grey SP 3 6 5 0.5\n"
+        "            ^~\n"
+        "  move the light, let light through (TAB), or leave out SHADOWS\n");
+    EXPECT_EQ(run_vera(folder, "check a.vera --shadows off").err, "");
+    folder.write("b.vera", std::string(small_scene) + "CM glass SP 3 6 5 0.5 MA glass TAB 1 1 1\n");
+    EXPECT_EQ(run_vera(folder, "check b.vera").err, "");
+}
+
 TEST(CheckCommand, ReadsTheControlFileToo) {
     const ScratchFolder folder;
     folder.write("a.vera", small_scene);
