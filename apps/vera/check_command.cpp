@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "vera/base/output_file.h"
+#include "vera/formats/read_scene.h"
+#include "vera/formats/source_text.h"
+#include "vera/formats/text_edits.h"
 #include "vera/solids/solid_findings.h"
 
 #include <algorithm>
@@ -11,6 +15,7 @@
 #include "messages.h"
 #include "prepared_scene.h"
 #include "progress_display.h"
+#include "scene_fixes.h"
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
@@ -21,6 +26,8 @@ namespace {
 struct Request {
     SceneRequest scene;
     bool strict = false;
+    bool fix = false;
+    std::string write; ///< where the corrected text goes; empty: nowhere
     bool json = false;
 };
 
@@ -102,20 +109,73 @@ std::string what_was_found(const std::vector<Diagnostic>& diagnostics, std::size
     return text;
 }
 
+/// A scene whose text can be changed: one of the language, in a file that can be read again.
+void refuse_what_cannot_be_fixed(const Request& request) {
+    if (!request.write.empty() && !request.fix)
+        throw CommandLineError("--write says where --fix writes the scene: give --fix too");
+    if (!request.fix)
+        return;
+    const SceneFormat format =
+        scene_format_named(request.scene.format).value_or(scene_format_of(request.scene.path));
+    if (request.scene.path == "-" || format != SceneFormat::vera)
+        throw CommandLineError("--fix changes the text of a scene in the VERA language; save it as "
+                               "a .vera file first");
+    if (request.json)
+        throw CommandLineError(
+            "--fix writes a diff to standard output, --json diagnostics: take one");
+}
+
+/// Proposes corrections as a diff, or writes the corrected text.
+void fix_scene(
+    const Request& request,
+    const PreparedScene& prepared,
+    std::vector<SolidFinding> findings,
+    const Console& console) {
+    if (!request.strict)
+        std::erase_if(findings, [](const SolidFinding& finding) {
+            return finding.severity == Severity::note;
+        });
+    const SourceText text(request.scene.path);
+    const SceneFixes fixes = scene_fixes(prepared, findings, text.text());
+    if (request.write.empty()) {
+        fmt::print(
+            "{}", unified_diff(text.text(), fixes.edits, request.scene.path, request.scene.path));
+    } else {
+        OutputFile file(request.write);
+        file.write(edited(text.text(), fixes.edits));
+        file.commit();
+    }
+    std::string message = fixes.fixed == 0 ? "nothing to correct"
+        : request.write.empty()            ? "corrects " + counted(fixes.fixed, "finding")
+                                           : "corrected " + counted(fixes.fixed, "finding");
+    if (fixes.left > 0)
+        message += fmt::format(
+            "; {} cannot be corrected without knowing more: see its remedy",
+            counted(fixes.left, "finding"));
+    print_note(fmt::format("{}: {}", request.scene.path, message), console);
+}
+
 void check_scene(const Request& request, Console& console) {
+    refuse_what_cannot_be_fixed(request);
     stop_on_interrupt(console);
     std::vector<Diagnostic> diagnostics;
     std::size_t left_out = 0;
     try {
         PreparedScene prepared = prepared_scene(request.scene);
         diagnostics = std::move(prepared.warnings);
-        SolidDiagnostics of_solids(prepared.scene, request.strict, diagnostics);
         ProgressDisplay display(console, "solids");
-        for (const SolidFinding& finding :
-             solid_findings(prepared.scene, display.callback(), &console.cancel))
+        std::vector<SolidFinding> findings =
+            solid_findings(prepared.scene, display.callback(), &console.cancel);
+        SolidDiagnostics of_solids(prepared.scene, request.strict, diagnostics);
+        for (const SolidFinding& finding : findings)
             of_solids.add(finding);
         of_solids.add_rest();
         left_out = of_solids.notes_left_out();
+        if (request.fix) {
+            print_diagnostics(diagnostics, console);
+            fix_scene(request, prepared, std::move(findings), console);
+            return;
+        }
     } catch (const InputError& error) {
         if (request.json)
             fmt::print("{}\n", to_json(error.diagnostics()));
@@ -143,12 +203,21 @@ void add_check_command(CLI::App& app, Console& console) {
         request->strict,
         "notes as well: solids that are open, faces that pass through each other or coincide in "
         "part");
+    check->add_flag(
+        "--fix",
+        request->fix,
+        "proposes corrections of the warnings, with --strict of the notes too, as a diff on "
+        "standard output");
+    check->add_option("--write", request->write, "with --fix: writes the corrected scene there")
+        ->type_name("FILE");
     check->add_flag("--json", request->json, "the diagnostics as JSON, on standard output");
     add_console_options(*check, console);
     check->footer("Exits with 0 when the scene can be rendered, warnings or not, else with 1.\n"
                   "Examples:\n"
                   "  vera check scene.vera\n"
                   "  vera check scene.vera --strict\n"
+                  "  vera check scene.vera --fix | patch\n"
+                  "  vera check scene.vera --fix --write better.vera\n"
                   "  vera check scene.vera -c scene.ctl --json");
 
     check->callback([request, &console] { check_scene(*request, console); });

@@ -57,8 +57,19 @@ TEST(SolidFindings, NameTheEdgesOfAHole) {
 TEST(SolidFindings, NameFacesWithTheInnerPointOutside) {
     EXPECT_THAT(
         found_in(material + "IP 0.5 2 0.5" + cube),
-        ElementsAre("warning 5: the inner point is on the outer side of this face of a closed "
+        ElementsAre("warning 5: the inner point is on the outer side of this face of its "
                     "solid"));
+}
+
+TEST(SolidFindings, KnowTheInsideOfAConvexSolidWithAHole) {
+    const std::string lid = "\nP4 0 1 0  0 1 1  1 1 1  1 1 0";
+    std::string open = cube;
+    open.erase(open.find(lid), lid.size());
+    EXPECT_THAT(
+        found_in(material + "IP 0.5 0.5 -2" + open),
+        ElementsAre(
+            "warning 2: the inner point is on the outer side of this face of its solid",
+            HasSubstr("note 2: this solid is open: 4 of its 12 edges")));
 }
 
 TEST(SolidFindings, NameFacesThatAreTurned) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/solids/shells.h"
 
+#include "vera/exact/orientation.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -148,6 +150,51 @@ void add_volumes(
     }
 }
 
+/// On which side of the face all of the points lie, but for its own corners and those in its plane:
+/// 0 where they do not, or none is left.
+int side_of_all(
+    const SolidFaces& faces,
+    const SolidFaces::Triangle& triangle,
+    std::span<const std::uint32_t> points) {
+    const auto [a, b, c] = faces.corners_of(triangle);
+    const auto own = faces.corners_of(faces.faces[triangle.face]);
+    int side = 0;
+    for (const std::uint32_t point : points) {
+        if (std::ranges::find(own, point) != own.end())
+            continue;
+        const int other = orientation(a, b, c, faces.points[point]);
+        if (other != 0 && side != 0 && other != side)
+            return 0;
+        side = side == 0 ? other : side;
+    }
+    return side;
+}
+
+/// Finds the inside of shells with holes that are convex else.
+void find_convex_sides(const SolidFaces& faces, std::vector<Shell>& shells) {
+    constexpr std::size_t least_faces = 4; // of a solid
+    constexpr std::size_t most_faces = 1000;
+    std::vector<const SolidFaces::Triangle*> triangles(faces.faces.size());
+    for (const SolidFaces::Triangle& triangle : faces.triangles)
+        triangles[triangle.face] = &triangle;
+    for (Shell& shell : shells) {
+        if (shell.is_closed || shell.faces.size() < least_faces || shell.faces.size() > most_faces)
+            continue;
+        std::vector<std::uint32_t> points;
+        for (const std::uint32_t face : shell.faces)
+            for (const std::uint32_t point : faces.corners_of(faces.faces[face]))
+                points.push_back(point);
+        shell.has_inside = std::ranges::all_of(shell.faces, [&](std::uint32_t face) {
+            const int side =
+                triangles[face] == nullptr ? 0 : side_of_all(faces, *triangles[face], points);
+            shell.is_turned.push_back(side > 0);
+            return side != 0;
+        });
+        if (!shell.has_inside)
+            shell.is_turned.clear();
+    }
+}
+
 } // namespace
 
 std::vector<Shell> shells(const SolidFaces& faces) {
@@ -164,7 +211,7 @@ std::vector<Shell> shells(const SolidFaces& faces) {
         const std::uint32_t first = sets.first_of(i);
         if (first == i) {
             shell_of[i] = static_cast<std::uint32_t>(shells.size());
-            shells.emplace_back().has_inside = true;
+            shells.emplace_back().is_closed = true;
         }
         shell_of[i] = shell_of[first];
         shells[shell_of[i]].faces.push_back(i);
@@ -172,7 +219,7 @@ std::vector<Shell> shells(const SolidFaces& faces) {
     for_each_edge(sides, [&](std::span<const Side> edge) {
         Shell& shell = shells[shell_of[edge.front().face]];
         ++shell.edges;
-        shell.has_inside = shell.has_inside && edge.size() == 2;
+        shell.is_closed = shell.is_closed && edge.size() == 2;
         const auto [lower, higher, face, is_forward] = edge.front();
         if (edge.size() == 1)
             shell.open.push_back({is_forward ? lower : higher, is_forward ? higher : lower, face});
@@ -184,7 +231,7 @@ std::vector<Shell> shells(const SolidFaces& faces) {
     Turns turns(faces, sides);
     std::vector<Vec3> centers;
     for (Shell& shell : shells) {
-        shell.has_inside = shell.has_inside && turns.follow_from(shell.faces.front());
+        shell.has_inside = shell.is_closed && turns.follow_from(shell.faces.front());
         centers.push_back(faces.points[faces.corners_of(faces.faces[shell.faces.front()]).front()]);
     }
     std::vector<Volume> volumes(shells.size());
@@ -199,6 +246,7 @@ std::vector<Shell> shells(const SolidFaces& faces) {
             for (const std::uint32_t face : shell.faces)
                 shell.is_turned.push_back(turns.is_turned(face) != (volumes[i].signed_sum < 0));
     }
+    find_convex_sides(faces, shells);
     return shells;
 }
 

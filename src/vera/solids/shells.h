@@ -23,8 +23,9 @@ struct Shell {
     std::vector<std::uint32_t> faces; ///< in text order
     std::size_t edges = 0;
     std::vector<OpenEdge> open;
-    /// Whether each edge belongs to two faces, so that it encloses a solid, and rounding leaves no
-    /// doubt on which side that is.
+    bool is_closed = false; ///< each edge belongs to two faces
+    /// Whether it is known on which side of each face the solid is: of a closed one that rounding
+    /// leaves no doubt of, and of one with holes where all lies on one side of each face.
     bool has_inside = false;
     /// Then, of each face: whether its corners run clockwise as seen from outside.
     std::vector<bool> is_turned;

@@ -50,11 +50,19 @@ private:
     void find_curved_duplicates();
     void check_shell(const Shell& shell);
     void check_sides(const Shell& shell);
+    void add_wrong_inner_point(std::uint32_t face);
+    void add_turned(const std::vector<std::uint32_t>& turned, std::size_t by_normal);
     void check_openness(const Shell& shell);
     void find_pairs(const Progress& progress, const CancelFlag* cancel);
 
     const Item& item_of(std::uint32_t face) const {
         return geometry_.items[faces_.faces[face].item];
+    }
+
+    /// Whether its outside is told by normals of the vertices.
+    bool has_normals(std::uint32_t face) const {
+        const Item& item = item_of(face);
+        return item.kind == ItemKind::mesh && !geometry_.meshes[item.index].normals.empty();
     }
 
     bool is_mesh(std::uint32_t face) const { return item_of(face).kind == ItemKind::mesh; }
@@ -64,7 +72,7 @@ private:
     Loop loop_of(std::uint32_t face) const {
         const auto corners = faces_.corners_of(faces_.faces[face]);
         Loop loop(corners.begin(), corners.end());
-        std::ranges::rotate(loop, std::ranges::min_element(loop));
+        std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
         if (loop.size() > 2 && loop.back() < loop[1])
             std::reverse(loop.begin() + 1, loop.end());
         return loop;
@@ -88,9 +96,15 @@ private:
             : fmt::format("{}:{}", scene_.files[other.file], other.line);
     }
 
+    /// Of what takes the material of the call, whether there is such a material at all.
     bool is_transparent(const Item& item) const {
+        const auto lets_light_through = [](const Material& material) {
+            return !is_black(material.tab);
+        };
         const auto number = static_cast<std::size_t>(item.material);
-        return number < scene_.materials.size() && !is_black(scene_.materials[number].tab);
+        return number < scene_.materials.size()
+            ? lets_light_through(scene_.materials[number])
+            : std::ranges::any_of(scene_.materials, lets_light_through);
     }
 
     SolidFinding& add(Kind kind, Severity severity, std::uint32_t item) {
@@ -203,51 +217,61 @@ void GeometryCheck::find_curved_duplicates() {
 void GeometryCheck::check_shell(const Shell& shell) {
     if (shell.has_inside)
         check_sides(shell);
-    else
+    if (!shell.is_closed)
         check_openness(shell);
 }
 
-/// Of a closed solid: whether what the text says is outside is so.
+/// Of a solid: whether what the text says is outside is so.
 void GeometryCheck::check_sides(const Shell& shell) {
-    std::size_t turned = 0;
+    std::vector<std::uint32_t> turned;
     std::size_t by_normal = 0;
     for (std::size_t i = 0; i < shell.faces.size(); ++i) {
-        const bool counts = item_of(shell.faces[i]).outside == Outside::by_normal;
-        by_normal += counts ? 1 : 0;
-        turned += counts && shell.is_turned[i] ? 1 : 0;
-    }
-    // All of them inwards may be meant: a room. In meshes and of single faces it is told once.
-    const bool tells_once = turned == by_normal || is_mesh(shell.faces.front());
-    bool is_told = false;
-    for (std::size_t i = 0; i < shell.faces.size(); ++i) {
         const std::uint32_t face = shell.faces[i];
-        const std::uint32_t number = faces_.faces[face].item;
-        const Item& item = item_of(face);
-        if (item.outside != Outside::by_normal) {
-            if ((item.outside == Outside::against_normal) == shell.is_turned[i])
-                continue;
-            SolidFinding& finding = add(Kind::wrong_inner_point, Severity::warning, number);
-            finding.problem = "the inner point is on the outer side of this face of a closed solid";
-            finding.remedy = "move IP to the inside of all faces that it is for; a solid that no "
-                             "point sees wholly from inside needs several";
-        } else if (
-            shell.is_turned[i] && !(tells_once && is_told)
-            && !(is_mesh(face) && !geometry_.meshes[item.index].normals.empty())) {
-            is_told = true;
-            SolidFinding& finding =
-                add(Kind::turned_face,
-                    is_transparent(item) && turned < by_normal ? Severity::warning : Severity::note,
-                    number);
-            finding.problem = turned == by_normal
-                ? fmt::format(
-                    "the normals of all {} faces of this closed solid point inwards", turned)
-                : tells_once ? fmt::format(
-                      "the normals of {} of the {} triangles of this closed mesh point inwards",
-                      turned,
-                      by_normal)
-                             : "the normal of this face points to the inside of its closed solid";
-            finding.remedy = "turn the order of its corners round, or give an inner point: IP";
+        const Outside outside = item_of(face).outside;
+        if (outside != Outside::by_normal) {
+            if ((outside == Outside::against_normal) != shell.is_turned[i])
+                add_wrong_inner_point(face);
+            continue;
         }
+        ++by_normal;
+        if (shell.is_closed && shell.is_turned[i] && !has_normals(face))
+            turned.push_back(face);
+    }
+    if (!turned.empty())
+        add_turned(turned, by_normal);
+}
+
+void GeometryCheck::add_wrong_inner_point(std::uint32_t face) {
+    SolidFinding& finding =
+        add(Kind::wrong_inner_point, Severity::warning, faces_.faces[face].item);
+    finding.problem = "the inner point is on the outer side of this face of its solid";
+    finding.remedy =
+        "move IP to the inside of all faces that it is for; a solid that no point sees "
+        "wholly from inside needs several";
+}
+
+/// Of a closed solid, those of the faces without inner point whose normals point inwards.
+void GeometryCheck::add_turned(const std::vector<std::uint32_t>& turned, std::size_t by_normal) {
+    // All of them inwards may be meant: a room. That, and of meshes, is told once.
+    const bool are_all = turned.size() == by_normal;
+    const bool is_told_once = are_all || is_mesh(turned.front());
+    for (const std::uint32_t face : turned) {
+        const bool changes_picture = is_transparent(item_of(face)) && !are_all;
+        SolidFinding& finding =
+            add(is_told_once ? Kind::turned_solid : Kind::turned_face,
+                changes_picture ? Severity::warning : Severity::note,
+                faces_.faces[face].item);
+        finding.problem = are_all
+            ? fmt::format(
+                "the normals of all {} faces of this closed solid point inwards", by_normal)
+            : is_told_once ? fmt::format(
+                  "the normals of {} of the {} triangles of this closed mesh point inwards",
+                  turned.size(),
+                  by_normal)
+                           : "the normal of this face points to the inside of its closed solid";
+        finding.remedy = "turn the order of its corners round, or give an inner point: IP";
+        if (is_told_once)
+            break;
     }
 }
 
@@ -342,6 +366,8 @@ const char* name_of(SolidFinding::Kind kind) {
         return "inner points on the wrong side of a face";
     case Kind::turned_face:
         return "faces whose normals point inwards";
+    case Kind::turned_solid:
+        return "solids with normals that point inwards";
     case Kind::open:
         return "solids that are open";
     case Kind::crossing:

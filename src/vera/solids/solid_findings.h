@@ -20,6 +20,7 @@ struct SolidFinding {
         wrong_inner_point, ///< of a face of a closed solid: the inner point is not on its inner
                            ///< side
         turned_face,       ///< of a closed solid without inner point: its normal points inwards
+        turned_solid,      ///< the same, of all its faces or of triangles of a mesh
         open,              ///< edges of what looks like a solid have no partner
         crossing,          ///< the item and the other pass through each other
         covering           ///< they lie in one plane, and have an area in common

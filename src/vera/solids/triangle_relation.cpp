@@ -40,8 +40,8 @@ struct CutTriangle {
 void stand_first_alone(CutTriangle& triangle, CutTriangle& other) {
     const int alone = std::ranges::count(triangle.sides, 1) == 1 ? 1 : -1;
     while (triangle.sides[0] != alone) {
-        std::ranges::rotate(triangle.corners, triangle.corners.begin() + 1);
-        std::ranges::rotate(triangle.sides, triangle.sides.begin() + 1);
+        std::rotate(triangle.corners.begin(), triangle.corners.begin() + 1, triangle.corners.end());
+        std::rotate(triangle.sides.begin(), triangle.sides.begin() + 1, triangle.sides.end());
     }
     if (alone < 0) {
         std::swap(other.corners[1], other.corners[2]);
