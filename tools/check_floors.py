@@ -19,7 +19,7 @@ FLOORS = [
     ["math"],
     ["exact", "image", "drawing"],
     ["scene"],
-    ["generate", "accel", "shade"],
+    ["generate", "accel", "shade", "solids"],
     ["formats", "render", "visible", "depth_buffer"],
     ["theory", "mpi"],
 ]

@@ -64,7 +64,11 @@ void override_light(const PictureOptions& options, PictureSettings& settings) {
         settings.ambient = color_of("--ambient", options.ambient);
     if (!options.sky.empty()) {
         const Color sky = color_of("--sky", options.sky);
-        settings.firmament = Firmament{sky, sky, sky};
+        // The colours are replaced, the shape of the horizon stays.
+        std::optional<HorizonProfile> profile;
+        if (settings.firmament)
+            profile = std::move(settings.firmament->profile);
+        settings.firmament = Firmament{sky, sky, sky, std::move(profile)};
     }
     if (options.horizon.empty() && options.earth.empty())
         return;
@@ -175,6 +179,24 @@ PictureSettings picture_settings(
     return settings;
 }
 
+namespace {
+
+/// " PROFILE ...", from which the same profile is read.
+std::string profile_text(const HorizonProfile& profile) {
+    if (const auto& mountains = profile.mountains())
+        return fmt::format(
+            " PROFILE MOUNTAINS {} {} {}",
+            mountains->seed,
+            mountains->height_degrees,
+            mountains->roughness);
+    std::string text = fmt::format(" PROFILE {}", profile.points().size());
+    for (const ProfilePoint& point : profile.points())
+        text += fmt::format(" {} {}", point.azimuth_degrees, point.elevation_degrees);
+    return text;
+}
+
+} // namespace
+
 std::string control_text(const PictureSettings& settings) {
     const auto color = [](const char* name, Color value) {
         return fmt::format(" {} {} {} {}", name, value.r, value.g, value.b);
@@ -188,6 +210,8 @@ std::string control_text(const PictureSettings& settings) {
         text += color("SKY", settings.firmament->sky);
         text += color("HORIZON", settings.firmament->horizon);
         text += color("EARTH", settings.firmament->earth);
+        if (settings.firmament->profile)
+            text += profile_text(*settings.firmament->profile);
     }
     if (settings.shadows)
         text += " SHADOWS";

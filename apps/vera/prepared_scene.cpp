@@ -18,28 +18,6 @@ namespace {
 /// Of a scene that is framed without being asked for a margin.
 constexpr double default_margin = 0.05;
 
-Diagnostic warning(const Scene& scene, const Finding& finding) {
-    Diagnostic diagnostic;
-    diagnostic.severity = Severity::warning;
-    if (finding.item && finding.item->file < scene.files.size()) {
-        const Item& item = *finding.item;
-        const std::string& file = scene.files[item.file];
-        try {
-            const SourceText text(file);
-            return diagnostic_at(
-                Severity::warning, item_place(item, text), finding.problem, finding.remedy);
-        } catch (const std::system_error&) {
-            // Standard input cannot be read again.
-            diagnostic.place = {file, item.line, 1};
-        }
-    } else if (!scene.files.empty()) {
-        diagnostic.place.file = scene.files.front();
-    }
-    diagnostic.problem = finding.problem;
-    diagnostic.remedy = finding.remedy;
-    return diagnostic;
-}
-
 /// A scene text whose author may have forgotten the camera; a mesh never has one.
 Diagnostic no_camera(const Scene& scene) {
     Diagnostic diagnostic;
@@ -65,6 +43,32 @@ Camera camera_of(const Scene& scene, const PictureSettings& settings) {
 }
 
 } // namespace
+
+Diagnostic diagnostic_of(
+    Severity severity,
+    const Scene& scene,
+    const std::optional<Item>& item,
+    std::string problem,
+    std::string remedy) {
+    Diagnostic diagnostic;
+    diagnostic.severity = severity;
+    if (item && item->file < scene.files.size()) {
+        const std::string& file = scene.files[item->file];
+        try {
+            const SourceText text(file);
+            return diagnostic_at(
+                severity, item_place(*item, text), std::move(problem), std::move(remedy));
+        } catch (const std::system_error&) {
+            // Standard input cannot be read again.
+            diagnostic.place = {file, item->line, 1};
+        }
+    } else if (!scene.files.empty()) {
+        diagnostic.place.file = scene.files.front();
+    }
+    diagnostic.problem = std::move(problem);
+    diagnostic.remedy = std::move(remedy);
+    return diagnostic;
+}
 
 void add_scene_options(CLI::App& command, SceneRequest& request) {
     command
@@ -96,7 +100,8 @@ PreparedScene prepared_scene(const SceneRequest& request) {
         prepared.scene.lights = default_lights(prepared.scene, prepared.camera);
     prepared.scene.camera = prepared.camera;
     for (const Finding& finding : inspect(prepared.scene, prepared.settings))
-        prepared.warnings.push_back(warning(prepared.scene, finding));
+        prepared.warnings.push_back(diagnostic_of(
+            Severity::warning, prepared.scene, finding.item, finding.problem, finding.remedy));
     return prepared;
 }
 

@@ -38,4 +38,13 @@ struct PreparedScene {
 /// lights one that came without camera and lights. Throws as the readers do.
 PreparedScene prepared_scene(const SceneRequest& request);
 
+/// A diagnostic at an item of the scene, with its line where its file can be read again; of the
+/// scene as a whole without one.
+Diagnostic diagnostic_of(
+    Severity severity,
+    const Scene& scene,
+    const std::optional<Item>& item,
+    std::string problem,
+    std::string remedy);
+
 } // namespace vera

@@ -81,6 +81,182 @@ TEST(CheckCommand, NamesTheSceneThatHoldsNothing) {
         "a.vera: error: the scene holds nothing that could be framed\n  add some geometry\n");
 }
 
+TEST(CheckCommand, CountsNotesOfSolidsAndShowsThemWhenStrict) {
+    const ScratchFolder folder;
+    folder.write("a.vera", std::string(small_scene) + "CM grey\nP3 -1 -1 0  1 -1 0  0 1 0\n");
+    const ProgramRun run = run_vera(folder, "check a.vera");
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ(run.out, "a.vera: good, with 1 note (--strict shows it)\n");
+    EXPECT_EQ(run.err, "");
+    const ProgramRun strict = run_vera(folder, "check a.vera --strict");
+    EXPECT_EQ(strict.exit_code, 0);
+    EXPECT_EQ(strict.out, "a.vera: good, with 1 note\n");
+    EXPECT_EQ(
+        strict.err,
+        "a.vera:8:1: note: this face or mesh passes through that of line 4\n"
+        "    P3 -1 -1 0  1 -1 0  0 1 0\n"
+        "    ^~\n");
+    EXPECT_NE(
+        run_vera(folder, "check a.vera --strict --json").out.find("\"severity\": \"note\""),
+        std::string::npos);
+}
+
+TEST(CheckCommand, SpeaksOfAnInnerPointOnceAndOfTheFirstFewOfAKind) {
+    const ScratchFolder folder;
+    std::string text = std::string(small_scene)
+        + "IP 2.5 5 2.5  CM grey\n"
+          "P4 2 0 2  2 1 2  3 1 2  3 0 2\nP4 2 0 3  3 0 3  3 1 3  2 1 3\n"
+          "P4 2 0 2  3 0 2  3 0 3  2 0 3\nP4 2 1 2  2 1 3  3 1 3  3 1 2\n"
+          "P4 2 0 2  2 0 3  2 1 3  2 1 2\nP4 3 0 2  3 1 2  3 1 3  3 0 3\n";
+    folder.write("a.vera", text);
+    const ProgramRun run = run_vera(folder, "check a.vera");
+    EXPECT_EQ(run.err.find("inner point"), run.err.rfind("inner point is on")) << run.err;
+    EXPECT_NE(run.err.find("a.vera:11:1: warning: the inner point"), std::string::npos) << run.err;
+    for (int i = 0; i < 13; ++i)
+        text += "SP 9 9 9 1\n";
+    folder.write("b.vera", text);
+    const ProgramRun twice = run_vera(folder, "check b.vera");
+    EXPECT_NE(
+        twice.err.find("b.vera:15:1: warning: the same sphere stands in line 14 already\n"),
+        std::string::npos)
+        << twice.err;
+    EXPECT_NE(
+        twice.err.find("b.vera: warning: 2 more things that stand in the text twice\n"),
+        std::string::npos)
+        << twice.err;
+}
+
+/// A glass block and a pyramid in the dark: an inner point outside, things that stand twice, and a
+/// face that is turned.
+const char* const bad_scene = "(* Without light. *)\n"
+                              "PROJECTION 0 2 8  -2 0 0  2 0 0  -2 4 0\n"
+                              "CM glass\n"
+                              "IP 0.5   3  0.5   (* meant to be inside *)\n"
+                              "P4 0 0 0  0 1 0  1 1 0  1 0 0\n"
+                              "P4 0 0 1  1 0 1  1 1 1  0 1 1\n"
+                              "P4 0 0 0  1 0 0  1 0 1  0 0 1   (* the floor *)\n"
+                              "P4 0 1 0  0 1 1  1 1 1  1 1 0\n"
+                              "P4 0 0 0  0 0 1  0 1 1  0 1 0\n"
+                              "P4 1 0 0  1 1 0  1 1 1  1 0 1\n"
+                              "SP 2 2 2 0.5  SP 3 3 3 0.5  SP 2 2 2 0.5\n"
+                              "SSC pyramid TR 3 0 0\n"
+                              "SCENE pyramid\n"
+                              "  P3 0 0 0  0 1 0  1 0 0   P3 0 0 0  1 0 0  0 0 1 (* base *)\n"
+                              "  P3 0 0 0  (* back *) 0 1 0\n"
+                              "            0 0 1\n"
+                              "  P3 1 0 0  0 1 0  0 0 1\n"
+                              "    SP 9 9 9 1\n"
+                              "    SP 9 9 9 1\n"
+                              "MA glass TAB 0.9 0.9 0.9 REF 1.5\n";
+
+TEST(CheckCommand, ProposesCorrectionsAsADiff) {
+    const ScratchFolder folder;
+    folder.write("a.vera", bad_scene);
+    const ProgramRun run = run_vera(folder, "check a.vera --fix");
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ(
+        run.out,
+        "--- a.vera\n"
+        "+++ a.vera\n"
+        "@@ -1,20 +1,20 @@\n"
+        " (* Without light. *)\n"
+        "+LI -4.802 8.723 8  150.6  1 1 1\n"
+        " PROJECTION 0 2 8  -2 0 0  2 0 0  -2 4 0\n"
+        " CM glass\n"
+        "-IP 0.5   3  0.5   (* meant to be inside *)\n"
+        "+IP 0.5   0.5  0.5   (* meant to be inside *)\n"
+        " P4 0 0 0  0 1 0  1 1 0  1 0 0\n"
+        " P4 0 0 1  1 0 1  1 1 1  0 1 1\n"
+        " P4 0 0 0  1 0 0  1 0 1  0 0 1   (* the floor *)\n"
+        " P4 0 1 0  0 1 1  1 1 1  1 1 0\n"
+        " P4 0 0 0  0 0 1  0 1 1  0 1 0\n"
+        " P4 1 0 0  1 1 0  1 1 1  1 0 1\n"
+        "-SP 2 2 2 0.5  SP 3 3 3 0.5  SP 2 2 2 0.5\n"
+        "+SP 2 2 2 0.5  SP 3 3 3 0.5\n"
+        " SSC pyramid TR 3 0 0\n"
+        " SCENE pyramid\n"
+        "   P3 0 0 0  0 1 0  1 0 0   P3 0 0 0  1 0 0  0 0 1 (* base *)\n"
+        "-  P3 0 0 0  (* back *) 0 1 0\n"
+        "+  P3 0 0 0  (* back *) 0 0 1\n"
+        "-            0 0 1\n"
+        "+            0 1 0\n"
+        "   P3 1 0 0  0 1 0  0 0 1\n"
+        "     SP 9 9 9 1\n"
+        "-    SP 9 9 9 1\n"
+        " MA glass TAB 0.9 0.9 0.9 REF 1.5\n");
+    EXPECT_NE(run.err.find("a.vera: corrects 5 findings\n"), std::string::npos) << run.err;
+    EXPECT_EQ(folder.read("a.vera"), bad_scene);
+}
+
+TEST(CheckCommand, WritesACorrectedSceneInWhichNothingIsLeftToCorrect) {
+    const ScratchFolder folder;
+    folder.write("a.vera", bad_scene);
+    const ProgramRun run = run_vera(folder, "check a.vera --fix --write b.vera");
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ(run.out, "");
+    const ProgramRun again = run_vera(folder, "check b.vera --strict");
+    EXPECT_EQ(again.out, "b.vera: good\n");
+    EXPECT_EQ(again.err, "");
+    const ProgramRun fixed = run_vera(folder, "check b.vera --fix");
+    EXPECT_EQ(fixed.out, "");
+    EXPECT_EQ(fixed.err, "b.vera: nothing to correct\n");
+}
+
+TEST(CheckCommand, MovesTheInnerPointOfThePapersExample) {
+    const ScratchFolder folder;
+    const std::string still_life = VERA_SOURCE_DIR "/scenes/still_life.vera";
+    EXPECT_NE(run_vera(folder, "check " + still_life).err.find("inner point"), std::string::npos);
+    const ProgramRun run = run_vera(folder, "check " + still_life + " --fix --write b.vera");
+    EXPECT_NE(run.err.find("corrected 1 finding\n"), std::string::npos) << run.err;
+    EXPECT_EQ(run_vera(folder, "check b.vera").err, "");
+}
+
+TEST(CheckCommand, SaysWhatItCannotCorrect) {
+    const ScratchFolder folder;
+    std::string text = bad_scene;
+    folder.write(
+        "a.vera",
+        text.insert(text.find("IP"), "INCLUDE \"part.vera\" (*")
+            .insert(text.find("inside *)"), "*) (* "));
+    folder.write("part.vera", "IP 0.5 3 0.5\n");
+    const ProgramRun run = run_vera(folder, "check a.vera --fix");
+    EXPECT_NE(
+        run.err.find("a.vera: corrects 4 findings; 1 finding cannot be corrected without knowing "
+                     "more: see its remedy\n"),
+        std::string::npos)
+        << run.err;
+}
+
+TEST(CheckCommand, FixesNothingButScenesOfTheLanguage) {
+    const ScratchFolder folder;
+    folder.write("a.vera", small_scene);
+    for (const char* arguments :
+         {"check a.vera --write b.vera",
+          "check - --fix < a.vera",
+          "check a.nff --fix",
+          "check a.vera --fix --json"}) {
+        const ProgramRun run = run_vera(folder, arguments);
+        EXPECT_EQ(run.exit_code, 2) << arguments;
+        EXPECT_NE(run.err.find("--fix"), std::string::npos) << run.err;
+    }
+    EXPECT_EQ(run_vera(folder, "check a.vera --fix --write no/b.vera").exit_code, 3);
+    EXPECT_EQ(folder.file_count(), 1U);
+}
+
+TEST(CheckCommand, WarnsOfALightThatSomethingOpaqueSurrounds) {
+    const ScratchFolder folder;
+    folder.write("a.vera", std::string(small_scene) + "CM grey SP 3 6 5 0.5\n");
+    EXPECT_EQ(
+        run_vera(folder, "check a.vera").err,
+        "a.vera:7:9: warning: a light lies inside this sphere, which keeps it in\n"
+        "    CM grey SP 3 6 5 0.5\n"
+        "            ^~\n"
+        "  move the light, let light through (TAB), or leave out SHADOWS\n");
+    EXPECT_EQ(run_vera(folder, "check a.vera --shadows off").err, "");
+    folder.write("b.vera", std::string(small_scene) + "CM glass SP 3 6 5 0.5 MA glass TAB 1 1 1\n");
+    EXPECT_EQ(run_vera(folder, "check b.vera").err, "");
+}
+
 TEST(CheckCommand, ReadsTheControlFileToo) {
     const ScratchFolder folder;
     folder.write("a.vera", small_scene);

@@ -176,6 +176,72 @@ TEST(ControlFile, BoundsItsExtensions) {
         "  it is the difference of neighbouring pixels, in any colour, that refines a pixel\n");
 }
 
+TEST(ControlFile, ReadsTheShapeOfTheHorizon) {
+    const auto read = read_control("SKY 0 0 1 PROFILE 4  -90 1  10 2.5  100 -3  190 4  SHADOWS");
+    EXPECT_EQ(read.said, "");
+    ASSERT_TRUE(read.settings.firmament && read.settings.firmament->profile);
+    const auto points = read.settings.firmament->profile->points();
+    const std::vector<ProfilePoint> expected = {{10, 2.5}, {100, -3}, {190, 4}, {270, 1}};
+    EXPECT_EQ(std::vector(points.begin(), points.end()), expected);
+    EXPECT_TRUE(read.settings.shadows);
+
+    const auto made = read_control("PROFILE MOUNTAINS 7 12.5 0.4 SKY 0 0 1");
+    EXPECT_EQ(made.said, "");
+    ASSERT_TRUE(made.settings.firmament && made.settings.firmament->profile);
+    EXPECT_EQ(made.settings.firmament->profile->mountains(), (Mountains{7, 12.5, 0.4}));
+}
+
+TEST(ControlFile, SaysWhatIsWrongWithAProfile) {
+    EXPECT_EQ(
+        read_control("SKY 1 1 1 PROFILE 3 0 1 130 2 240 3").said,
+        "test.ctl:1:25: error: from the azimuth 0 to 130 there are more than 120 degrees\n"
+        "    SKY 1 1 1 PROFILE 3 0 1 130 2 240 3\n"
+        "                            ^~~\n"
+        "  give a point between them\n");
+    EXPECT_EQ(
+        read_control("SKY 1 1 1 PROFILE 3 0 1 120 2 90 3").said,
+        "test.ctl:1:31: error: the azimuth 90 does not follow 120\n"
+        "    SKY 1 1 1 PROFILE 3 0 1 120 2 90 3\n"
+        "                                  ^~\n"
+        "  give the points by growing azimuth: 0 is -z, 90 is x, 180 is z, 270 is -x\n");
+    EXPECT_EQ(
+        read_control("SKY 1 1 1 PROFILE 3 0 1 100 2 200 3").said,
+        "test.ctl:1:31: error: from the last azimuth, 200, round to the first, 0, there are more "
+        "than 120 degrees\n"
+        "    SKY 1 1 1 PROFILE 3 0 1 100 2 200 3\n"
+        "                                  ^~~\n"
+        "  give a point between them: a profile goes all round\n");
+    EXPECT_EQ(
+        read_control("SKY 1 1 1 PROFILE 5 0 1 120 2 240 3 300 4 360 5").said,
+        "test.ctl:1:43: error: from 0 to 360 the profile goes round more than once\n"
+        "    SKY 1 1 1 PROFILE 5 0 1 120 2 240 3 300 4 360 5\n"
+        "                                              ^~~\n"
+        "  leave out the last points: the profile closes by itself\n");
+    EXPECT_EQ(
+        read_control("SKY 1 1 1 PROFILE 3 0 85 120 2 240 3").said,
+        "test.ctl:1:23: error: the elevation of a point of PROFILE is 85, but must be from -80 to "
+        "80\n"
+        "    SKY 1 1 1 PROFILE 3 0 85 120 2 240 3\n"
+        "                          ^~\n"
+        "  it is the angle above the level in degrees, for example 5\n");
+    EXPECT_EQ(
+        read_control("SKY 1 1 1 PROFILE MOUNTAINS 1 10 2").said,
+        "test.ctl:1:34: error: the roughness of MOUNTAINS is 2, but must be from 0 to 1\n"
+        "    SKY 1 1 1 PROFILE MOUNTAINS 1 10 2\n"
+        "                                     ^\n"
+        "  0 makes soft hills, 1 jagged rocks\n");
+    EXPECT_EQ(
+        read_control("SKY 1 1 1 PROFILE HILLS").said.substr(0, 93),
+        "test.ctl:1:19: error: expected MOUNTAINS or the number of points of PROFILE, found "
+        "'HILLS'\n  ");
+    EXPECT_EQ(
+        read_control("PROFILE MOUNTAINS 1 10 1").said,
+        "test.ctl:1:1: warning: PROFILE is ignored without SKY\n"
+        "    PROFILE MOUNTAINS 1 10 1\n"
+        "    ^~~~~~~\n"
+        "  give SKY as well: without it the whole firmament is black\n");
+}
+
 TEST(ControlFile, SaysThatAKeywordIsComplete) {
     EXPECT_EQ(
         read_control("SHADOWS 5").said,

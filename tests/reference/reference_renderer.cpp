@@ -192,7 +192,33 @@ private:
         const Vector sky = vector_of(settings_.firmament->sky);
         const Vector horizon = vector_of(settings_.firmament->horizon);
         const Real u = direction.y;
-        return u >= 0 ? horizon + u * (sky - horizon) : vector_of(settings_.firmament->earth);
+        if (is_earth(direction))
+            return vector_of(settings_.firmament->earth);
+        return horizon + std::max(u, Real{0}) * (sky - horizon);
+    }
+
+    /// "PROFILE: ... the line from one point to the next is part of a great circle".
+    bool is_earth(Vector direction) const {
+        const auto& profile = settings_.firmament->profile;
+        if (!profile)
+            return direction.y < 0;
+        const Real degree = std::acos(Real{-1}) / 180;
+        const auto points = profile->points();
+        const Real turned = std::atan2(direction.x, -direction.z) / degree;
+        const Real azimuth = turned < points.front().azimuth_degrees ? turned + 360 : turned;
+        std::size_t i = points.size() - 1;
+        while (i > 0 && points[i].azimuth_degrees > azimuth)
+            --i;
+        const ProfilePoint& a = points[i];
+        const ProfilePoint& b = points[i + 1 < points.size() ? i + 1 : 0];
+        const auto slope = [&](const ProfilePoint& point) {
+            return std::tan(point.elevation_degrees * degree);
+        };
+        const Real from_a = (azimuth - a.azimuth_degrees) * degree;
+        const Real gap = (b.azimuth_degrees - a.azimuth_degrees) * degree;
+        const Real height =
+            (slope(a) * std::sin(gap - from_a) + slope(b) * std::sin(from_a)) / std::sin(gap);
+        return direction.y < height * std::hypot(direction.x, direction.z);
     }
 
     const Scene& scene_;

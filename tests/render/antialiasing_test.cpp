@@ -183,6 +183,56 @@ TEST(Antialiasing, RefinesAShadowsEdge) {
     EXPECT_EQ(shadowed.statistics.refined_pixels, 128U);
 }
 
+/// A view to the north of a degree and a half a pixel or so, over a profile before a white sky.
+RenderResult seen_profile(const HorizonProfile& profile) {
+    SceneMaker maker;
+    maker.sphere({0, 0, 100}, 1); // behind the viewer
+    Camera camera;
+    camera.lower_left = {-1, -0.5, -2};
+    camera.lower_right = {1, -0.5, -2};
+    camera.upper_left = {-1, 0.5, -2};
+    maker.scene.camera = camera;
+    const auto index = make_brute_force(maker.finish());
+    PictureSettings settings;
+    settings.width = 64;
+    settings.height = 32;
+    settings.firmament = Firmament{{1, 1, 1}, {1, 1, 1}, {0, 0, 0}, profile};
+    return render_scene(maker.scene, camera, *index, settings, SampleType::integer16);
+}
+
+TEST(Antialiasing, CoversPixelsByTheirPartOfTheSkyAboveAProfile) {
+    // From (0, 16) up to (32, 8) and down again to (64, 16) in pixels: lines are straight.
+    const double side = std::atan(0.5) * 180 / 3.14159265358979;
+    const double peak = std::atan(0.125) * 180 / 3.14159265358979;
+    const HorizonProfile profile({{-side, 0}, {0, peak}, {side, 0}, {120, 0}, {240, 0}});
+    const RenderResult result = seen_profile(profile);
+    EXPECT_NEAR(sum_of_reds(result.image), 64 * 16 - 64 * 8 / 2, 1);
+    for (std::size_t x = 2; x < 30; ++x) {
+        double column = 0;
+        for (std::size_t y = 0; y < 32; ++y)
+            column += red(result.image, x, y);
+        ASSERT_NEAR(column, 16 - (static_cast<double>(x) + 0.5) / 4, 0.15) << x;
+    }
+    EXPECT_GT(result.statistics.refined_pixels, 60U);
+}
+
+TEST(Antialiasing, FollowsAPeakOfATenthOfAPixel) {
+    const double pixel = std::atan(1 / 64.0) * 180 / 3.14159265358979; // in the middle
+    std::vector<ProfilePoint> points = {{60, -40}, {150, -40}, {250, -40}};
+    points.push_back({360 - 0.3 * pixel - 0.01, -40});
+    points.push_back({360 - 0.3 * pixel, 10});
+    points.push_back({360 - 0.2 * pixel, 10});
+    points.push_back({360 - 0.2 * pixel + 0.01, -40});
+    const RenderResult result = seen_profile(HorizonProfile(points));
+    // It is narrowest in azimuth, and so of a tenth of a pixel everywhere.
+    for (std::size_t y = 8; y < 30; ++y) {
+        double row = 0;
+        for (std::size_t x = 0; x < 64; ++x)
+            row += 1 - red(result.image, x, y);
+        ASSERT_GT(row, 0) << y;
+    }
+}
+
 TEST(Antialiasing, UsesAsManyRaysAsAreAskedFor) {
     SceneMaker maker;
     maker.material(luminous({1, 1, 1}));

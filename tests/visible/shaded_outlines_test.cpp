@@ -286,11 +286,14 @@ TEST(RegionLight, LeavesOutTheLightsThatDoNotReachIt) {
     EXPECT_TRUE(contains(LightSet{0}, 32));
 }
 
-TEST(DrawnFirmament, IsWithinTheToleranceAboveTheHorizonAndBelow) {
+class ShapedFirmament : public ::testing::TestWithParam<std::optional<HorizonProfile>> {};
+
+TEST_P(ShapedFirmament, IsWithinTheToleranceAboveTheHorizonAndBelow) {
     PictureSettings picture;
     picture.width = 160;
     picture.height = 120;
-    picture.firmament = Firmament{{0.1, 0.3, 0.9}, {0.9, 0.8, 0.6}, {0.3, 0.4, 0.1}};
+    picture.firmament = Firmament{{0.1, 0.3, 0.9}, {0.9, 0.8, 0.6}, {0.3, 0.4, 0.1}, GetParam()};
+    int earth = 0;
     for (int number = 0; number < 12; ++number) {
         Camera camera = camera_number(number);
         if (number >= 8) { // up and down, and along the horizon
@@ -300,6 +303,11 @@ TEST(DrawnFirmament, IsWithinTheToleranceAboveTheHorizonAndBelow) {
             camera.lower_right = {4, -3, -4};
             camera.upper_left = {-4, 3, -4};
         }
+        if (number == 11) { // straight up
+            camera.lower_left = {-4, 4, 4};
+            camera.lower_right = {4, 4, 4};
+            camera.upper_left = {-4, 4, -4};
+        }
         const DrawnFirmament drawn = drawn_firmament(camera, picture, {});
         for (int i = 0; i < 400; ++i) {
             const DrawingPoint at = {i % 20 * 8 + 3.7, i / 20 * 6.0 + 2.9};
@@ -307,12 +315,28 @@ TEST(DrawnFirmament, IsWithinTheToleranceAboveTheHorizonAndBelow) {
                 drawn.background.r / 255.0, drawn.background.g / 255.0, drawn.background.b / 255.0};
             const Color shown = testing::painted_color(drawn.sky, at).value_or(background);
             const Vec3 direction = view_ray(camera, at.x / 160, at.y / 120).direction;
+            earth += is_earth(*picture.firmament, direction) ? 1 : 0;
             ASSERT_LT(
-                difference(shown, firmament_color(picture.firmament, direction)), 1.5 * tolerance)
+                difference(shown, firmament_color(picture.firmament, direction)), 2 * tolerance)
                 << "camera " << number << " at " << at.x << ' ' << at.y;
         }
     }
+    EXPECT_GT(earth, 100);
+    EXPECT_LT(earth, 4780);
 }
+
+// Also steep peaks and gorges, which are seen from below and from above all round.
+INSTANTIATE_TEST_SUITE_P(
+    Profiles,
+    ShapedFirmament,
+    ::testing::Values(
+        std::nullopt,
+        HorizonProfile({{0, 0}, {90, 0}, {180, 0}, {270, 0}}),
+        HorizonProfile({{0, 60}, {120, 60}, {240, 40}}),
+        HorizonProfile({{-30, -70}, {90, -80}, {210, -60}}),
+        HorizonProfile(
+            {{-90, 10}, {-45, -30}, {-20, 45}, {0, 0}, {10, 60}, {45, -20}, {100, 70}, {180, 0}}),
+        HorizonProfile(Mountains{3, 25, 0.8})));
 
 TEST(DrawnFirmament, IsTheBackgroundAloneWhereItIsOfOneColor) {
     PictureSettings picture;

@@ -3,6 +3,7 @@
 
 #include "vera/formats/complaints.h"
 #include "vera/formats/control_words.h"
+#include "vera/formats/profile_reader.h"
 #include "vera/formats/source_text.h"
 #include "vera/formats/vera_keywords.h"
 #include "vera/formats/word_reader.h"
@@ -28,6 +29,7 @@ enum class Keyword : std::uint8_t {
     sky,
     horizon,
     earth,
+    profile,
     shadows,
     antialias,
     frame,
@@ -43,11 +45,12 @@ std::optional<Keyword> keyword_named(std::string_view word) {
     return static_cast<Keyword>(found - control_words.begin());
 }
 
-/// The three colours of the firmament as they are written.
+/// The parts of the firmament as they are written.
 struct FirmamentWords {
     std::optional<Color> sky;
     std::optional<Color> horizon;
     std::optional<Color> earth;
+    std::optional<HorizonProfile> profile;
 };
 
 /// Reads keyword after keyword.
@@ -157,6 +160,9 @@ void ControlReader::read_values(Keyword keyword) {
         return take_color("HORIZON", firmament_.horizon);
     case Keyword::earth:
         return take_color("EARTH", firmament_.earth);
+    case Keyword::profile:
+        firmament_.profile = read_profile(words_);
+        return;
     case Keyword::shadows:
         settings_.shadows = true;
         return;
@@ -265,10 +271,14 @@ void ControlReader::read_tolerance() {
 void ControlReader::set_firmament() {
     if (firmament_.sky) {
         const Color horizon = firmament_.horizon.value_or(*firmament_.sky);
-        settings_.firmament = {*firmament_.sky, horizon, firmament_.earth.value_or(horizon)};
+        settings_.firmament = {
+            *firmament_.sky,
+            horizon,
+            firmament_.earth.value_or(horizon),
+            std::move(firmament_.profile)};
         return;
     }
-    for (const Keyword keyword : {Keyword::horizon, Keyword::earth})
+    for (const Keyword keyword : {Keyword::horizon, Keyword::earth, Keyword::profile})
         if (const auto& place = places_[static_cast<std::size_t>(keyword)])
             complaints_.warn(
                 "parts of a firmament without SKY",

@@ -8,7 +8,7 @@
 namespace vera {
 
 /// The keywords of control files.
-constexpr std::array<std::string_view, 13> control_words = {
+constexpr std::array<std::string_view, 14> control_words = {
     "RASTER",
     "RTDEPTH",
     "EXPMES",
@@ -16,6 +16,7 @@ constexpr std::array<std::string_view, 13> control_words = {
     "SKY",
     "HORIZON",
     "EARTH",
+    "PROFILE",
     "SHADOWS",
     "ANTI-ALIAS",
     "FRAME",

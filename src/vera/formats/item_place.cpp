@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/formats/item_place.h"
 
-#include "vera/formats/vera_keywords.h"
-
 #include <algorithm>
 
 namespace vera {
@@ -20,6 +18,8 @@ std::size_t line_offset(std::string_view text, std::uint64_t line) {
     }
     return offset;
 }
+
+} // namespace
 
 bool makes(std::optional<Statement> statement, ItemKind kind) {
     switch (kind) {
@@ -40,8 +40,6 @@ bool makes(std::optional<Statement> statement, ItemKind kind) {
     }
     return false;
 }
-
-} // namespace
 
 WordPlace item_place(const Item& item, const SourceText& text) {
     const std::size_t begin = line_offset(text.text(), item.line);

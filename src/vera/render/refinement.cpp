@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 namespace vera {
 
@@ -153,7 +154,7 @@ void TileRefiner::see_all_centers() {
     tracer_.statistics.extra_view_rays += rays_.size() - pixels_.size();
     for (std::size_t i = 0; i < targets_.size(); ++i) {
         Seen& center = centers_[targets_[i]];
-        center = seen(hits_[i], surfaces_[i]);
+        center = seen_by_ray(i);
         center.color = clamped(colors_[i]);
         is_known_[targets_[i]] = 1;
     }
@@ -182,7 +183,7 @@ void TileRefiner::see_unknown_centers() {
     targets_.resize(unknown);
     probe();
     for (std::size_t i = 0; i < targets_.size(); ++i)
-        centers_[targets_[i]] = seen(hits_[i], surfaces_[i]);
+        centers_[targets_[i]] = seen_by_ray(i);
 }
 
 void TileRefiner::probe() {
@@ -201,6 +202,14 @@ void TileRefiner::find_edges() {
                 pixel,
                 is_thin(around, *around[middle]) ? refinement_of_thin(around) : Refinement::edge);
     }
+}
+
+Seen TileRefiner::seen_by_ray(std::size_t ray) const {
+    Seen one = seen(hits_[ray], surfaces_[ray]);
+    const auto& firmament = picture_.traced.firmament;
+    if (!one.found && firmament && firmament->profile)
+        one.below_profile = firmament->profile->hides(rays_[ray].ray.direction);
+    return one;
 }
 
 bool TileRefiner::differs(const Window& window) const {
@@ -236,7 +245,7 @@ void TileRefiner::send_probes() {
     probe();
     for (std::size_t i = 0; i < rays_.size(); ++i) {
         const Window around = window(targets_[i]);
-        if (is_thin(around, seen(hits_[i], surfaces_[i])))
+        if (is_thin(around, seen_by_ray(i)))
             want(targets_[i], refinement_of_thin(around));
     }
 }
@@ -342,7 +351,7 @@ bool TileRefiner::sees_thin_things(const Job& job, std::size_t first_ray) const 
     const Window around = window(job.pixel);
     const bool own_is_thin = is_thin(around, *around[middle]);
     for (std::uint32_t i = 0; i < job.last_sample - job.first_sample; ++i) {
-        const Seen sample = seen(hits_[first_ray + i], surfaces_[first_ray + i]);
+        const Seen sample = seen_by_ray(first_ray + i);
         if (!own_is_thin && same_surface(*around[middle], sample))
             continue;
         if (is_thin(around, sample))
@@ -371,13 +380,14 @@ void TileRefiner::follow_thin_things() {
     for (std::size_t i = 0; i < crossings_.size(); ++i) {
         const Crossing& crossing = crossings_[i];
         const Window around = window(crossing.pixel);
-        const Hit* last = nullptr;
+        std::optional<Seen> last;
         for (std::size_t ray = i * side_probes; ray < (i + 1) * side_probes; ++ray) {
+            const Seen one = seen_by_ray(ray);
             // One ray after another sees the same face: a glance at one of them is enough.
-            if (last != nullptr && last->face == hits_[ray].face)
+            if (last && last->face == one.face && last->below_profile == one.below_profile)
                 continue;
-            last = &hits_[ray];
-            if (is_thin(around, seen(hits_[ray], surfaces_[ray]))) {
+            last = one;
+            if (is_thin(around, one)) {
                 want_neighbour(crossing.x, crossing.y, crossing.refinement);
                 break;
             }

@@ -102,6 +102,7 @@ private:
     void follow_thin_things();
     void look_along_side(std::size_t pixel, Refinement refinement, std::size_t x, std::size_t y);
     void develop_pixel(const Job& job);
+    Seen seen_by_ray(std::size_t ray) const;
 
     void want(std::size_t pixel, Refinement refinement);
     void want_neighbour(std::size_t x, std::size_t y, Refinement refinement);

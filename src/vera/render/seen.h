@@ -14,6 +14,7 @@ namespace vera {
 /// What a view ray saw: of which surface, and of which colour, clamped.
 struct Seen {
     bool found = false;
+    bool below_profile = false; ///< the earth that PROFILE shapes, where nothing was found
     FaceId face;
     MaterialId material = inherited_material;
     Vec3 point;
@@ -24,17 +25,17 @@ struct Seen {
 inline Seen seen(const Hit& hit, const SurfacePoint& surface) {
     if (!hit.found())
         return {};
-    return {true, surface.face, surface.material, surface.point, surface.shading_normal, {}};
+    return {true, false, surface.face, surface.material, surface.point, surface.shading_normal, {}};
 }
 
-/// Whether two rays saw the same surface, as far as a picture shows it: nothing, the same face, or
-/// faces of one material that go over into each other without a crease or a step. Tells nothing
-/// about size or scale.
+/// Whether two rays saw the same surface, as far as a picture shows it: the sky, the earth, the
+/// same face, or faces of one material that go over into each other without a crease or a step.
+/// Tells nothing about size or scale.
 inline bool same_surface(const Seen& a, const Seen& b) {
     constexpr double smallest_cosine = 0.9; // a crease of 26 degrees
     constexpr double largest_slope = 0.25;  // of the step, seen along the surface
     if (!a.found || !b.found)
-        return a.found == b.found;
+        return a.found == b.found && a.below_profile == b.below_profile;
     if (a.face == b.face)
         return true;
     if (a.material != b.material || std::abs(dot(a.normal, b.normal)) < smallest_cosine)

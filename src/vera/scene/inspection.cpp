@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <iterator>
 #include <optional>
 
 namespace vera {
@@ -106,8 +107,16 @@ const char* enclosing_kind(const Geometry& geometry, std::uint32_t i, Vec3 point
     return nullptr;
 }
 
-/// The first object found that the point lies in.
-std::optional<Finding> enclosing_object(const Scene& scene, Vec3 viewpoint) {
+/// Something that a point lies in.
+struct Enclosure {
+    Item item;
+    std::string kind; ///< a word for it
+};
+
+/// The first object found that the point lies in, of those that are wanted.
+template <typename Wanted>
+std::optional<Enclosure> enclosing_object(
+    const Scene& scene, Vec3 from, const std::vector<Box3>& boxes, const Wanted& wanted) {
     struct Visit {
         const Geometry* geometry;
         Vec3 point;
@@ -115,8 +124,7 @@ std::optional<Finding> enclosing_object(const Scene& scene, Vec3 viewpoint) {
 
     // Where copies lie in one another without number, looking must end somewhere.
     constexpr int most_visits = 100'000;
-    const std::vector<Box3> boxes = subscene_bounds(scene);
-    std::vector<Visit> stack = {{&scene.geometry, viewpoint}};
+    std::vector<Visit> stack = {{&scene.geometry, from}};
     for (int visits = 0; !stack.empty() && visits < most_visits; ++visits) {
         const Visit visit = stack.back();
         stack.pop_back();
@@ -129,16 +137,44 @@ std::optional<Finding> enclosing_object(const Scene& scene, Vec3 viewpoint) {
                 const Vec3 point = transformed_point(call.from_parent, visit.point);
                 if (contains(boxes[callee], point))
                     stack.push_back({&scene.subscenes[callee], point});
-            } else if (const char* kind = enclosing_kind(geometry, i, visit.point)) {
-                return Finding{
-                    Finding::Kind::viewpoint_in_object,
-                    item,
-                    std::string("the view point lies inside this ") + kind,
-                    "move the view point, or remove what surrounds it"};
+            } else if (wanted(item)) {
+                if (const char* kind = enclosing_kind(geometry, i, visit.point))
+                    return Enclosure{item, kind};
             }
         }
     }
     return std::nullopt;
+}
+
+std::optional<Finding> viewpoint_in_object(const Scene& scene, Vec3 viewpoint) {
+    const auto around = enclosing_object(
+        scene, viewpoint, subscene_bounds(scene), [](const Item&) { return true; });
+    if (!around)
+        return std::nullopt;
+    return Finding{
+        Finding::Kind::viewpoint_in_object,
+        around->item,
+        "the view point lies inside this " + around->kind,
+        "move the view point, or remove what surrounds it"};
+}
+
+/// What keeps lights in.
+std::vector<Finding> lights_in_objects(const Scene& scene) {
+    constexpr std::size_t most_lights = 100;
+    const std::vector<Box3> boxes = subscene_bounds(scene);
+    const auto is_opaque = [&](const Item& item) {
+        const auto number = static_cast<std::size_t>(item.material);
+        return number < scene.materials.size() && is_black(scene.materials[number].tab);
+    };
+    std::vector<Finding> findings;
+    for (std::size_t i = 0; i < scene.lights.size() && i < most_lights; ++i)
+        if (const auto around = enclosing_object(scene, scene.lights[i].position, boxes, is_opaque))
+            findings.push_back(
+                {Finding::Kind::light_in_object,
+                 around->item,
+                 "a light lies inside this " + around->kind + ", which keeps it in",
+                 "move the light, let light through (TAB), or leave out SHADOWS"});
+    return findings;
 }
 
 std::optional<Finding> all_behind(const Scene& scene, const Camera& camera) {
@@ -168,8 +204,10 @@ std::vector<Finding> inspect(const Scene& scene, const PictureSettings& settings
              {},
              "there is no light and nothing luminous: the picture will be black",
              "add a light source (LI), AMBIENT or SKY"});
+    if (settings.shadows)
+        std::ranges::move(lights_in_objects(scene), std::back_inserter(findings));
     if (scene.camera && scene.camera->projection == Camera::Projection::perspective) {
-        if (auto finding = enclosing_object(scene, scene.camera->viewpoint))
+        if (auto finding = viewpoint_in_object(scene, scene.camera->viewpoint))
             findings.push_back(std::move(*finding));
         if (auto finding = all_behind(scene, *scene.camera))
             findings.push_back(std::move(*finding));

@@ -14,6 +14,7 @@ struct Finding {
     enum class Kind {
         no_light,            ///< no light and nothing luminous: the picture would be black
         viewpoint_in_object, ///< the view point lies inside something closed
+        light_in_object,     ///< a light lies inside something opaque, and there are shadows
         all_behind_viewer    ///< no geometry before the view point
     };
 

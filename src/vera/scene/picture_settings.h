@@ -2,17 +2,19 @@
 #pragma once
 
 #include "vera/math/color.h"
+#include "vera/scene/horizon_profile.h"
 
 #include <cstdint>
 #include <optional>
 
 namespace vera {
 
-/// SKY, HORIZON and EARTH, with the defaults of missing ones filled in.
+/// SKY, HORIZON, EARTH and PROFILE, with the defaults of missing colours filled in.
 struct Firmament {
     Color sky;
     Color horizon;
     Color earth;
+    std::optional<HorizonProfile> profile = {}; ///< where the earth ends; none: at the level
 };
 
 /// Anti-aliasing by controlled oversampling.

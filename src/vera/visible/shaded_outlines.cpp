@@ -5,6 +5,7 @@
 #include "vera/shade/firmament.h"
 #include "vera/visible/gradient_fit.h"
 #include "vera/visible/region_paint.h"
+#include "vera/visible/sky_outline.h"
 
 #include <algorithm>
 #include <iterator>
@@ -28,6 +29,14 @@ HalfPlane above_horizon(const Camera& camera, const PictureSettings& picture) {
         return {{0, 0}, rays.origin_or_direction.y};
     return {
         {-rays.across.y / picture.width, rays.up.y / picture.height}, rays.corner.y + rays.up.y};
+}
+
+/// Whether the rings are the frame and nothing else.
+bool is_whole(const std::vector<BorderRing>& rings, const BorderRing& frame) {
+    return rings.size() == 1 && rings.front().size() == frame.size()
+        && std::ranges::all_of(rings.front(), [&](DrawingPoint point) {
+               return std::find(frame.begin(), frame.end(), point) != frame.end();
+           });
 }
 
 } // namespace
@@ -56,25 +65,27 @@ DrawnFirmament drawn_firmament(
     DrawnFirmament drawn;
     if (!picture.firmament)
         return drawn;
+    const Firmament& firmament = *picture.firmament;
     const ViewRays rays(camera);
     const double width = picture.width;
     const double height = picture.height;
     const ColorField sky = [&](DrawingPoint point) {
-        Vec3 direction = rays.ray(point.x / width, point.y / height).direction;
-        direction.y = std::max(direction.y, 0.0); // on the horizon, after rounding
-        return clamped(firmament_color(picture.firmament, direction));
+        return clamped(sky_color(firmament, rays.ray(point.x / width, point.y / height).direction));
     };
     const std::vector<BorderRing> frame = {{{0, 0}, {width, 0}, {width, height}, {0, height}}};
     const HalfPlane above = above_horizon(camera, picture);
     const HalfPlane below = {{-above.normal.x, -above.normal.y}, -above.reach};
     PaintedRegion region;
     region.outline.id = region.outline.group = "sky";
-    region.rings = cut_rings(frame, above);
+    region.rings = firmament.profile
+        ? sky_outline(camera, *firmament.profile, width, height)
+        : cut_rings(frame, above);
+    const bool shows_earth = firmament.profile ? !is_whole(region.rings, frame.front())
+                                               : !cut_rings(frame, below).empty();
     if (!region.rings.empty())
         drawn.sky = painted(std::move(region), sky, tolerance, {}, cancel);
-    const bool shows_earth = !cut_rings(frame, below).empty();
     if (shows_earth) {
-        const ColorSample earth = {{}, picture.firmament->earth};
+        const ColorSample earth = {{}, firmament.earth};
         drawn.background = flat_fit({&earth, 1}).color;
     } else if (!drawn.sky.empty()) {
         drawn.background = drawn.sky.front().color;

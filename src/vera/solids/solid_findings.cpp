@@ -1,0 +1,391 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vera/solids/solid_findings.h"
+
+#include "vera/base/progress_part.h"
+#include "vera/solids/box_pairs.h"
+#include "vera/solids/shells.h"
+#include "vera/solids/solid_faces.h"
+#include "vera/solids/triangle_relation.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace vera {
+
+namespace {
+
+using Kind = SolidFinding::Kind;
+
+std::string shown(Vec3 point) {
+    return fmt::format("({} {} {})", point.x, point.y, point.z);
+}
+
+/// The findings of one geometry.
+class GeometryCheck {
+public:
+    GeometryCheck(const Scene& scene, std::size_t subscene, std::vector<SolidFinding>& findings)
+        : scene_(scene)
+        , subscene_(subscene)
+        , geometry_(subscene == 0 ? scene.geometry : scene.subscenes[subscene - 1])
+        , faces_(solid_faces(geometry_))
+        , findings_(findings) {}
+
+    void check(const Progress& progress, const CancelFlag* cancel) {
+        find_duplicates();
+        find_curved_duplicates();
+        for (const Shell& shell : shells(faces_))
+            check_shell(shell);
+        find_pairs(progress, cancel);
+    }
+
+private:
+    using Loop = std::vector<std::uint32_t>;
+
+    void find_duplicates();
+    void find_curved_duplicates();
+    void check_shell(const Shell& shell);
+    void check_sides(const Shell& shell);
+    void add_wrong_inner_point(std::uint32_t face);
+    void add_turned(const std::vector<std::uint32_t>& turned, std::size_t by_normal);
+    void check_openness(const Shell& shell);
+    void find_pairs(const Progress& progress, const CancelFlag* cancel);
+
+    const Item& item_of(std::uint32_t face) const {
+        return geometry_.items[faces_.faces[face].item];
+    }
+
+    /// Whether its outside is told by normals of the vertices.
+    bool has_normals(std::uint32_t face) const {
+        const Item& item = item_of(face);
+        return item.kind == ItemKind::mesh && !geometry_.meshes[item.index].normals.empty();
+    }
+
+    bool is_mesh(std::uint32_t face) const { return item_of(face).kind == ItemKind::mesh; }
+
+    /// Corners that begin with the least and go on with the lesser of its neighbours: the same for
+    /// faces that are the same, however they are written.
+    Loop loop_of(std::uint32_t face) const {
+        const auto corners = faces_.corners_of(faces_.faces[face]);
+        Loop loop(corners.begin(), corners.end());
+        std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
+        if (loop.size() > 2 && loop.back() < loop[1])
+            std::reverse(loop.begin() + 1, loop.end());
+        return loop;
+    }
+
+    /// Whether what is outside of the face lies where its loop runs clockwise.
+    bool is_outside_behind_loop(std::uint32_t face) const {
+        const auto corners = faces_.corners_of(faces_.faces[face]);
+        const Loop loop = loop_of(face);
+        const auto first =
+            static_cast<std::size_t>(std::ranges::find(corners, loop.front()) - corners.begin());
+        const bool is_reversed = corners[(first + 1) % corners.size()] != loop[1];
+        return is_reversed != (item_of(face).outside == Outside::against_normal);
+    }
+
+    /// "line 12", with its file where it is another than the item's.
+    std::string place_of(std::uint32_t item, std::uint16_t file) const {
+        const Item& other = geometry_.items[item];
+        return other.file == file || other.file >= scene_.files.size()
+            ? fmt::format("line {}", other.line)
+            : fmt::format("{}:{}", scene_.files[other.file], other.line);
+    }
+
+    /// Of what takes the material of the call, whether there is such a material at all.
+    bool is_transparent(const Item& item) const {
+        const auto lets_light_through = [](const Material& material) {
+            return !is_black(material.tab);
+        };
+        const auto number = static_cast<std::size_t>(item.material);
+        return number < scene_.materials.size()
+            ? lets_light_through(scene_.materials[number])
+            : std::ranges::any_of(scene_.materials, lets_light_through);
+    }
+
+    SolidFinding& add(Kind kind, Severity severity, std::uint32_t item) {
+        SolidFinding& finding = findings_.emplace_back();
+        finding.kind = kind;
+        finding.severity = severity;
+        finding.subscene = subscene_;
+        finding.item = item;
+        return finding;
+    }
+
+    void
+    add_duplicate(std::uint32_t item, std::uint32_t first, const char* what, Severity severity) {
+        SolidFinding& finding = add(Kind::duplicate, severity, item);
+        finding.other = first;
+        finding.problem = fmt::format(
+            "the same {} stands in {} already", what, place_of(first, geometry_.items[item].file));
+        finding.remedy = severity == Severity::note
+            ? "they have their outer sides towards each other: two solids touch there"
+            : "remove one of them: where surfaces coincide, the earlier one is seen";
+    }
+
+    template <typename Primitives, typename Key>
+    void find_same(ItemKind kind, const Primitives& primitives, const Key& key, const char* what);
+
+    const Scene& scene_;
+    std::size_t subscene_;
+    const Geometry& geometry_;
+    SolidFaces faces_;
+    std::vector<SolidFinding>& findings_;
+};
+
+void GeometryCheck::find_duplicates() {
+    std::map<Loop, std::uint32_t> first_with;
+    std::map<std::uint32_t, std::size_t> twice_in_mesh;
+    for (std::uint32_t i = 0; i < faces_.faces.size(); ++i) {
+        const auto [at, is_new] = first_with.emplace(loop_of(i), i);
+        if (is_new)
+            continue;
+        const std::uint32_t item = faces_.faces[i].item;
+        if (is_mesh(i))
+            ++twice_in_mesh[item];
+        else
+            add_duplicate(
+                item,
+                faces_.faces[at->second].item,
+                "face",
+                is_outside_behind_loop(i) == is_outside_behind_loop(at->second) ? Severity::warning
+                                                                                : Severity::note);
+    }
+    for (const auto& [item, count] : twice_in_mesh) {
+        SolidFinding& finding = add(Kind::duplicate, Severity::note, item);
+        finding.problem = fmt::format(
+            "{} triangle{} of this mesh stand{} in the same place as another face",
+            count,
+            count == 1 ? "" : "s",
+            count == 1 ? "s" : "");
+    }
+}
+
+template <typename Primitives, typename Key>
+void GeometryCheck::find_same(
+    ItemKind kind, const Primitives& primitives, const Key& key, const char* what) {
+    std::map<decltype(key(primitives[0])), std::uint32_t> first_with;
+    for (std::uint32_t i = 0; i < geometry_.items.size(); ++i) {
+        const Item& item = geometry_.items[i];
+        if (item.kind != kind)
+            continue;
+        const auto [at, is_new] = first_with.emplace(key(primitives[item.index]), i);
+        if (!is_new)
+            add_duplicate(i, at->second, what, Severity::warning);
+    }
+}
+
+void GeometryCheck::find_curved_duplicates() {
+    if (!geometry_.spheres.empty())
+        find_same(
+            ItemKind::sphere,
+            geometry_.spheres,
+            [](const Sphere& sphere) {
+                const Vec3 center = sphere.center;
+                return std::tuple(center.x, center.y, center.z, sphere.radius);
+            },
+            "sphere");
+    if (!geometry_.rotational_shapes.empty())
+        find_same(
+            ItemKind::rotational_shape,
+            geometry_.rotational_shapes,
+            [](const RotationalShape& shape) {
+                std::vector<double> numbers = {
+                    shape.base.x,
+                    shape.base.y,
+                    shape.base.z,
+                    shape.axis.x,
+                    shape.axis.y,
+                    shape.axis.z,
+                    shape.start.r,
+                    shape.start.h};
+                for (const ContourPiece& piece : shape.contour) {
+                    numbers.push_back(static_cast<double>(piece.kind));
+                    for (const auto& control : piece.control)
+                        numbers.insert(numbers.end(), {control.r, control.h});
+                    numbers.insert(numbers.end(), {piece.weight, piece.end.r, piece.end.h});
+                }
+                return numbers;
+            },
+            "rotational shape");
+}
+
+void GeometryCheck::check_shell(const Shell& shell) {
+    if (shell.has_inside)
+        check_sides(shell);
+    if (!shell.is_closed)
+        check_openness(shell);
+}
+
+/// Of a solid: whether what the text says is outside is so.
+void GeometryCheck::check_sides(const Shell& shell) {
+    std::vector<std::uint32_t> turned;
+    std::size_t by_normal = 0;
+    for (std::size_t i = 0; i < shell.faces.size(); ++i) {
+        const std::uint32_t face = shell.faces[i];
+        const Outside outside = item_of(face).outside;
+        if (outside != Outside::by_normal) {
+            if ((outside == Outside::against_normal) != shell.is_turned[i])
+                add_wrong_inner_point(face);
+            continue;
+        }
+        ++by_normal;
+        if (shell.is_closed && shell.is_turned[i] && !has_normals(face))
+            turned.push_back(face);
+    }
+    if (!turned.empty())
+        add_turned(turned, by_normal);
+}
+
+void GeometryCheck::add_wrong_inner_point(std::uint32_t face) {
+    SolidFinding& finding =
+        add(Kind::wrong_inner_point, Severity::warning, faces_.faces[face].item);
+    finding.problem = "the inner point is on the outer side of this face of its solid";
+    finding.remedy =
+        "move IP to the inside of all faces that it is for; a solid that no point sees "
+        "wholly from inside needs several";
+}
+
+/// Of a closed solid, those of the faces without inner point whose normals point inwards.
+void GeometryCheck::add_turned(const std::vector<std::uint32_t>& turned, std::size_t by_normal) {
+    // All of them inwards may be meant: a room. That, and of meshes, is told once.
+    const bool are_all = turned.size() == by_normal;
+    const bool is_told_once = are_all || is_mesh(turned.front());
+    for (const std::uint32_t face : turned) {
+        const bool changes_picture = is_transparent(item_of(face)) && !are_all;
+        SolidFinding& finding =
+            add(is_told_once ? Kind::turned_solid : Kind::turned_face,
+                changes_picture ? Severity::warning : Severity::note,
+                faces_.faces[face].item);
+        finding.problem = are_all
+            ? fmt::format(
+                "the normals of all {} faces of this closed solid point inwards", by_normal)
+            : is_told_once ? fmt::format(
+                  "the normals of {} of the {} triangles of this closed mesh point inwards",
+                  turned.size(),
+                  by_normal)
+                           : "the normal of this face points to the inside of its closed solid";
+        finding.remedy = "turn the order of its corners round, or give an inner point: IP";
+        if (is_told_once)
+            break;
+    }
+}
+
+/// Of faces that hang together and do not enclose a solid: whether they were meant to.
+void GeometryCheck::check_openness(const Shell& shell) {
+    constexpr std::size_t least_faces = 4; // of a solid
+    constexpr std::size_t most_named = 3;
+    const bool is_meant = std::ranges::any_of(shell.faces, [&](std::uint32_t face) {
+        return is_mesh(face) || item_of(face).outside != Outside::by_normal;
+    });
+    if (!is_meant || shell.open.empty() || shell.faces.size() < least_faces)
+        return;
+    const std::uint32_t face = shell.open.front().face;
+    const Item& item = item_of(face);
+    SolidFinding& finding = add(Kind::open, Severity::note, faces_.faces[face].item);
+    finding.problem = fmt::format(
+        "this solid is open: {} of its {} edges belong{} to one face alone:",
+        shell.open.size(),
+        shell.edges,
+        shell.open.size() == 1 ? "s" : "");
+    for (std::size_t i = 0; i < shell.open.size() && i < most_named; ++i) {
+        const OpenEdge& edge = shell.open[i];
+        const std::string where = is_mesh(edge.face)
+            ? ""
+            : fmt::format(" in {}", place_of(faces_.faces[edge.face].item, item.file));
+        finding.problem += fmt::format(
+            "{}{} from {} to {}",
+            i == 0 ? "" : ",",
+            where,
+            shown(faces_.points[edge.from]),
+            shown(faces_.points[edge.to]));
+    }
+    if (shell.open.size() > most_named)
+        finding.problem += fmt::format(" and {} more", shell.open.size() - most_named);
+    finding.remedy =
+        "where it was meant to be closed, a face is missing, or corners that should be "
+        "the same differ";
+}
+
+void GeometryCheck::find_pairs(const Progress& progress, const CancelFlag* cancel) {
+    constexpr std::size_t most_pairs = 1'000'000;
+    using ItemPair = std::tuple<Kind, std::uint32_t, std::uint32_t>;
+    std::map<ItemPair, std::size_t> pairs;
+    std::size_t found = 0;
+    std::vector<Box3> boxes;
+    boxes.reserve(faces_.triangles.size());
+    for (const SolidFaces::Triangle& triangle : faces_.triangles) {
+        const auto [a, b, c] = faces_.corners_of(triangle);
+        boxes.push_back(grown(grown(grown(Box3(), a), b), c));
+    }
+    const auto look_at = [&](std::uint32_t i, std::uint32_t k) {
+        const SolidFaces::Triangle& a = faces_.triangles[i];
+        const SolidFaces::Triangle& b = faces_.triangles[k];
+        if (a.face == b.face || found == most_pairs)
+            return;
+        const TriangleRelation between = relation(faces_.corners_of(a), faces_.corners_of(b));
+        if (between == TriangleRelation::apart
+            || (between == TriangleRelation::covering && loop_of(a.face) == loop_of(b.face)))
+            return;
+        ++found;
+        const std::uint32_t first = faces_.faces[a.face].item;
+        const std::uint32_t second = faces_.faces[b.face].item;
+        ++pairs[ItemPair(
+            between == TriangleRelation::crossing ? Kind::crossing : Kind::covering,
+            std::max(first, second),
+            std::min(first, second))];
+    };
+    for_each_box_pair(boxes, look_at, progress, cancel);
+    for (const auto& [pair, count] : pairs) {
+        const auto [kind, item, other] = pair;
+        SolidFinding& finding = add(kind, Severity::note, item);
+        finding.other = other;
+        const std::string with = item == other
+            ? fmt::format("itself, at {} pair{} of triangles", count, count == 1 ? "" : "s")
+            : fmt::format("that of {}", place_of(other, geometry_.items[item].file));
+        finding.problem = kind == Kind::crossing
+            ? fmt::format("this face or mesh passes through {}", with)
+            : fmt::format("a part of this face or mesh coincides with {}", with);
+        finding.remedy = kind == Kind::crossing
+            ? ""
+            : "where surfaces coincide, the one that stands earlier is seen";
+    }
+}
+
+} // namespace
+
+const char* name_of(SolidFinding::Kind kind) {
+    switch (kind) {
+    case Kind::duplicate:
+        return "things that stand in the text twice";
+    case Kind::wrong_inner_point:
+        return "inner points on the wrong side of a face";
+    case Kind::turned_face:
+        return "faces whose normals point inwards";
+    case Kind::turned_solid:
+        return "solids with normals that point inwards";
+    case Kind::open:
+        return "solids that are open";
+    case Kind::crossing:
+        return "pairs that pass through each other";
+    case Kind::covering:
+        break;
+    }
+    return "pairs that coincide in part";
+}
+
+std::vector<SolidFinding>
+solid_findings(const Scene& scene, const Progress& progress, const CancelFlag* cancel) {
+    std::vector<SolidFinding> findings;
+    const std::size_t count = scene.subscenes.size() + 1;
+    StageProgress stages(progress, static_cast<double>(count));
+    for (std::size_t i = 0; i < count; ++i)
+        GeometryCheck(scene, i, findings).check(stages.next(1), cancel);
+    return findings;
+}
+
+} // namespace vera
