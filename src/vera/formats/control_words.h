@@ -8,7 +8,7 @@
 namespace vera {
 
 /// The keywords of control files.
-constexpr std::array<std::string_view, 13> control_words = {
+constexpr std::array<std::string_view, 14> control_words = {
     "RASTER",
     "RTDEPTH",
     "EXPMES",
@@ -21,7 +21,8 @@ constexpr std::array<std::string_view, 13> control_words = {
     "FRAME",
     "ASPECT",
     "SAMPLES",
-    "TOLERANCE"};
+    "TOLERANCE",
+    "LIGHTS"};
 
 inline bool is_control_word(std::string_view word) {
     return std::find(control_words.begin(), control_words.end(), word) != control_words.end();
