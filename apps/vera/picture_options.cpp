@@ -10,6 +10,7 @@
 #include "option_values.h"
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace vera {
 
@@ -206,6 +207,8 @@ std::string control_text(const PictureSettings& settings) {
     if (settings.exposure)
         text += fmt::format(" EXPMES {}", *settings.exposure);
     text += color("AMBIENT", settings.ambient);
+    if (!settings.light_factors.empty())
+        text += fmt::format(" LIGHTS {}", fmt::join(settings.light_factors, " "));
     if (settings.firmament) {
         text += color("SKY", settings.firmament->sky);
         text += color("HORIZON", settings.firmament->horizon);

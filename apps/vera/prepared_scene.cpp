@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "prepared_scene.h"
 
+#include "vera/formats/control_file.h"
 #include "vera/formats/item_place.h"
 #include "vera/formats/read_scene.h"
 #include "vera/formats/source_text.h"
@@ -98,6 +99,7 @@ PreparedScene prepared_scene(const SceneRequest& request) {
     prepared.camera = camera_of(prepared.scene, prepared.settings);
     if (!prepared.scene.camera && prepared.scene.lights.empty())
         prepared.scene.lights = default_lights(prepared.scene, prepared.camera);
+    scale_lights(prepared.scene, prepared.settings, request.picture.control_file);
     prepared.scene.camera = prepared.camera;
     for (const Finding& finding : inspect(prepared.scene, prepared.settings))
         prepared.warnings.push_back(diagnostic_of(

@@ -9,6 +9,7 @@
 
 #include "command.h"
 #include "interrupt.h"
+#include "layers_output.h"
 #include "messages.h"
 #include "option_values.h"
 #include "prepared_scene.h"
@@ -32,6 +33,7 @@ struct Request {
     StrategyRequest strategy;
     std::string output;
     std::string format;
+    std::string layers;
     double jpeg_quality = 95;
     double threads = 0;
     bool json = false;
@@ -43,6 +45,7 @@ struct Report {
     double surfaces_seconds = 0;
     double index_seconds = 0;
     double render_seconds = 0;
+    double layers_seconds = 0; ///< to render and write them, where they were asked for
     double write_seconds = 0;
     std::size_t index_bytes = 0;
     RenderStatistics statistics;
@@ -121,6 +124,7 @@ nlohmann::ordered_json as_json(const Report& report) {
           {"surfaces", report.surfaces_seconds},
           {"index", report.index_seconds},
           {"render", report.render_seconds},
+          {"layers", report.layers_seconds},
           {"write", report.write_seconds}}}};
     if (report.exposure)
         json["exposure"] = {
@@ -153,6 +157,16 @@ std::string as_text(const Report& report, const Request& request) {
         is_by_rays ? "" : duration_text(report.surfaces_seconds) + " for surfaces, ",
         duration_text(report.index_seconds),
         duration_text(report.render_seconds));
+}
+
+/// Layers are those of rays, and a file of their own.
+void check_layers(const Request& request) {
+    if (request.layers.empty())
+        return;
+    if (!request.strategy.is_rays())
+        throw CommandLineError(
+            "--layers are those of rays: leave out --strategy, or give --strategy rays");
+    check_layers_name(request.layers);
 }
 
 void print_notes(const SeenParts& seen, const Console& console) {
@@ -254,6 +268,7 @@ void render(const Request& request, const Console& console) {
     const double jpeg_quality = number_of("--quality", request.jpeg_quality, 1, 100);
     const ThreadLimit limit(whole_of("--threads", request.threads, 0, most_threads));
     check_options(request.strategy, request.scene.picture);
+    check_layers(request);
     Report report;
     Stopwatch watch;
 
@@ -261,6 +276,9 @@ void render(const Request& request, const Console& console) {
     print_diagnostics(prepared.warnings, console);
     // Opened before the long work, so that a folder that is not there shows at once.
     OutputFile file(request.output);
+    std::optional<OutputFile> layers_file;
+    if (!request.layers.empty())
+        layers_file.emplace(request.layers);
     report.read_seconds = watch.lap();
 
     const SeenParts seen = surfaces(request, prepared, console);
@@ -282,8 +300,14 @@ void render(const Request& request, const Console& console) {
         format,
         metadata(prepared),
         {.jpeg_quality = static_cast<int>(jpeg_quality)});
-    file.commit();
     report.write_seconds = watch.lap();
+    if (layers_file) {
+        write_layers(prepared, *index, metadata(prepared), *layers_file, console);
+        layers_file->commit();
+        report.layers_seconds = watch.lap();
+    }
+    file.commit();
+    report.write_seconds += watch.lap();
 
     if (request.json)
         fmt::print(request.output == "-" ? stderr : stdout, "{}\n", as_json(report).dump(2));
@@ -308,6 +332,12 @@ void add_render_command(CLI::App& app, Console& console) {
             request->format,
             "of the picture, where its name does not tell: " + format_names())
         ->type_name("NAME");
+    command
+        ->add_option(
+            "--layers",
+            request->layers,
+            "EXR file to write beside the picture: its light by source and term")
+        ->type_name("FILE");
     command->add_option("--quality", request->jpeg_quality, "of a JPEG picture, 1 to 100")
         ->type_name("Q")
         ->capture_default_str();
@@ -322,6 +352,7 @@ void add_render_command(CLI::App& app, Console& console) {
                     "  vera render still_life.vera -c still_life.ctl -o still_life.png\n"
                     "  vera render scene.vera -o draft.png --raster 320x240 --antialias off\n"
                     "  vera render scene.vera -o exact.png --strategy visible\n"
+                    "  vera render scene.vera -o scene.png --layers layers.exr\n"
                     "  vera render bunny.obj -o bunny.exr\n"
                     "  vera render balls.nff --format ppm -o - | display");
 

@@ -19,10 +19,23 @@ const CLI::App& command_in_use(const CLI::App& app) {
     return used.empty() ? app : *used.front();
 }
 
-std::vector<std::string> known_words(const CLI::App& command) {
-    std::vector<std::string> words;
+std::vector<std::string> command_names(const CLI::App& command) {
+    std::vector<std::string> names;
     for (const CLI::App* subcommand : command.get_subcommands([](const CLI::App*) { return true; }))
-        words.push_back(subcommand->get_name());
+        names.push_back(subcommand->get_name());
+    return names;
+}
+
+/// "auto, grid or brute"
+std::string list_of(const std::vector<std::string>& words) {
+    std::string list;
+    for (std::size_t i = 0; i < words.size(); ++i)
+        list += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + words[i];
+    return list;
+}
+
+std::vector<std::string> known_words(const CLI::App& command) {
+    std::vector<std::string> words = command_names(command);
     for (const CLI::Option* option : command.get_options())
         for (const std::string& name : option->get_lnames())
             words.push_back("--" + name);
@@ -32,8 +45,7 @@ std::vector<std::string> known_words(const CLI::App& command) {
 /// "unknown option '--rastr'; did you mean '--raster'?"
 std::string unknown_word(const CLI::App& command, const std::string& word) {
     const bool option = word.size() > 1 && word.front() == '-';
-    const bool takes_commands =
-        !command.get_subcommands([](const CLI::App*) { return true; }).empty();
+    const bool takes_commands = !command_names(command).empty();
     const char* const what = option ? "option" : takes_commands ? "command" : "argument";
     const std::string name = word.substr(0, word.find('='));
     if (const auto similar = most_similar(name, known_words(command)))
@@ -56,15 +68,12 @@ std::optional<std::string> wrong_choice(const CLI::App& command, std::string_vie
     }
     if (choices.size() < 2)
         return std::nullopt;
-    std::string list;
-    for (std::size_t i = 0; i < choices.size(); ++i)
-        list += (i == 0 ? "" : i + 1 == choices.size() ? " or " : ", ") + choices[i];
     const std::string& found = option->results().back();
     const auto similar = most_similar(found, choices);
     return fmt::format(
         "{} takes {}; found '{}'{}",
         name,
-        list,
+        list_of(choices),
         found,
         similar ? fmt::format("; did you mean '{}'?", *similar) : "");
 }
@@ -85,7 +94,7 @@ std::string usage_problem(const CLI::App& app, const CLI::ParseError& error) {
     if (extra_or_missing && !unread.empty())
         return with_help_hint(app, unknown_word(command_in_use(app), unread.front()));
     if (&command_in_use(app) == &app && dynamic_cast<const CLI::RequiredError*>(&error) != nullptr)
-        return with_help_hint(app, "say what to do: render, draw, check, info or ladder");
+        return with_help_hint(app, "say what to do: " + list_of(command_names(app)));
     if (const auto choice = wrong_choice(command_in_use(app), error.what()))
         return with_help_hint(app, *choice);
     std::string problem = error.what();

@@ -261,5 +261,51 @@ TEST(ControlFile, NamesTheFileThatIsNotThere) {
     }
 }
 
+TEST(ControlFile, ReadsAFactorForEachLight) {
+    const Reading reading = read_control("RASTER 5 5 LIGHTS 1 .5 0\nSHADOWS");
+    EXPECT_EQ(reading.said, "");
+    EXPECT_EQ(reading.settings.light_factors, (std::vector<double>{1, 0.5, 0}));
+    EXPECT_TRUE(reading.settings.shadows);
+    EXPECT_TRUE(read_control("SHADOWS").settings.light_factors.empty());
+}
+
+TEST(ControlFile, SaysWhatIsWrongWithFactorsOfLights) {
+    EXPECT_EQ(
+        read_control("LIGHTS SHADOWS").said,
+        "test.ctl:1:8: error: expected a factor of LIGHTS, found 'SHADOWS'\n"
+        "    LIGHTS SHADOWS\n"
+        "           ^~~~~~~\n");
+    EXPECT_EQ(
+        read_control("LIGHTS 1 -2").said,
+        "test.ctl:1:10: error: a factor of LIGHTS is -2, but must be at least 0\n"
+        "    LIGHTS 1 -2\n"
+        "             ^~\n"
+        "  0 turns a light off, 1 leaves it as it is\n");
+}
+
+TEST(ControlFile, ScalesTheLightsOfTheScene) {
+    Scene scene;
+    scene.lights.resize(2);
+    scene.lights[1].intensity = 8;
+    PictureSettings settings;
+    scale_lights(scene, settings, "test.ctl");
+    EXPECT_EQ(scene.lights[1].intensity, 8);
+    settings.light_factors = {1, 0.25};
+    scale_lights(scene, settings, "test.ctl");
+    EXPECT_EQ(scene.lights[0].intensity, 1);
+    EXPECT_EQ(scene.lights[1].intensity, 2);
+
+    settings = read_control("SHADOWS\nLIGHTS 1").settings;
+    try {
+        scale_lights(scene, settings, "test.ctl");
+        FAIL() << "one factor for two lights";
+    } catch (const InputError& error) {
+        EXPECT_EQ(
+            to_text(error.diagnostics().front()),
+            "test.ctl:2:1: error: LIGHTS gives 1 factor, but the scene has 2 lights\n"
+            "  give one factor for each LI, in their order: 1 leaves a light as it is\n");
+    }
+}
+
 } // namespace
 } // namespace vera

@@ -35,7 +35,8 @@ enum class Keyword : std::uint8_t {
     frame,
     aspect,
     samples,
-    tolerance
+    tolerance,
+    lights
 };
 
 std::optional<Keyword> keyword_named(std::string_view word) {
@@ -56,9 +57,9 @@ struct FirmamentWords {
 /// Reads keyword after keyword.
 class ControlReader {
 public:
-    ControlReader(const SourceText& text, const PictureSettings& defaults)
+    ControlReader(const SourceText& text, PictureSettings defaults)
         : words_(text, complaints_)
-        , settings_(defaults) {
+        , settings_(std::move(defaults)) {
         settings_.shadows = false;
         settings_.antialiasing.on = false;
     }
@@ -125,6 +126,7 @@ private:
     void read_aspect();
     void read_samples();
     void read_tolerance();
+    void read_lights();
     void set_firmament();
 
     void take_color(const char* what, std::optional<Color>& color) {
@@ -177,6 +179,8 @@ void ControlReader::read_values(Keyword keyword) {
         return read_samples();
     case Keyword::tolerance:
         return read_tolerance();
+    case Keyword::lights:
+        return read_lights();
     }
 }
 
@@ -268,6 +272,27 @@ void ControlReader::read_tolerance() {
         "it is the difference of neighbouring pixels, in any colour, that refines a pixel");
 }
 
+void ControlReader::read_lights() {
+    settings_.light_factors_line = static_cast<std::uint32_t>(words_.last_place().line);
+    std::vector<double> factors;
+    // One at least; what follows is a factor unless it is a keyword.
+    do {
+        const WordPlace place = words_.place();
+        const auto factor = words_.take_number("a factor of LIGHTS");
+        if (!factor)
+            return;
+        if (!(*factor >= 0)) {
+            complaints_.error(
+                place,
+                fmt::format("a factor of LIGHTS is {}, but must be at least 0", *factor),
+                "0 turns a light off, 1 leaves it as it is");
+            return;
+        }
+        factors.push_back(*factor);
+    } while (!words_.peek().empty() && !keyword_named(words_.peek()));
+    settings_.light_factors = std::move(factors);
+}
+
 void ControlReader::set_firmament() {
     if (firmament_.sky) {
         const Color horizon = firmament_.horizon.value_or(*firmament_.sky);
@@ -301,6 +326,27 @@ PictureSettings read_control_file(
 PictureSettings read_control_text(
     const SourceText& text, const PictureSettings& defaults, std::vector<Diagnostic>& warnings) {
     return ControlReader(text, defaults).read(warnings);
+}
+
+void scale_lights(
+    Scene& scene, const PictureSettings& settings, const std::filesystem::path& control_file) {
+    const std::vector<double>& factors = settings.light_factors;
+    if (factors.empty())
+        return;
+    if (factors.size() != scene.lights.size()) {
+        Diagnostic wrong;
+        wrong.place = {control_file.string(), settings.light_factors_line, 1};
+        wrong.problem = fmt::format(
+            "LIGHTS gives {} {}, but the scene has {} {}",
+            factors.size(),
+            factors.size() == 1 ? "factor" : "factors",
+            scene.lights.size(),
+            scene.lights.size() == 1 ? "light" : "lights");
+        wrong.remedy = "give one factor for each LI, in their order: 1 leaves a light as it is";
+        throw InputError({wrong});
+    }
+    for (std::size_t i = 0; i < factors.size(); ++i)
+        scene.lights[i].intensity *= factors[i];
 }
 
 } // namespace vera

@@ -4,6 +4,7 @@
 #include "vera/base/diagnostic.h"
 #include "vera/formats/source_text.h"
 #include "vera/scene/picture_settings.h"
+#include "vera/scene/scene.h"
 
 #include <filesystem>
 #include <vector>
@@ -22,5 +23,10 @@ PictureSettings read_control_file(
 /// The same, of a text from memory.
 PictureSettings read_control_text(
     const SourceText& text, const PictureSettings& defaults, std::vector<Diagnostic>& warnings);
+
+/// Multiplies the intensities of the scene's lights by the factors of LIGHTS. Throws InputError,
+/// which names the control file, where there are not as many factors as lights.
+void scale_lights(
+    Scene& scene, const PictureSettings& settings, const std::filesystem::path& control_file);
 
 } // namespace vera

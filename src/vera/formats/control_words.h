@@ -22,7 +22,8 @@ constexpr std::array<std::string_view, 14> control_words = {
     "FRAME",
     "ASPECT",
     "SAMPLES",
-    "TOLERANCE"};
+    "TOLERANCE",
+    "LIGHTS"};
 
 inline bool is_control_word(std::string_view word) {
     return std::find(control_words.begin(), control_words.end(), word) != control_words.end();

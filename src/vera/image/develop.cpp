@@ -103,4 +103,8 @@ void develop(std::span<const Color> colors, Image& image, std::size_t x, std::si
         image.samples);
 }
 
+std::uint8_t developed_byte(double value) {
+    return integer_sample<std::uint8_t>(value);
+}
+
 } // namespace vera

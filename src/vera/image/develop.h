@@ -4,6 +4,7 @@
 #include "vera/image/image.h"
 #include "vera/math/color.h"
 
+#include <cstdint>
 #include <span>
 
 namespace vera {
@@ -14,5 +15,8 @@ namespace vera {
 /// nothing. In integers what is not a number is 0. Different pixels may be developed by different
 /// threads at once.
 void develop(std::span<const Color> colors, Image& image, std::size_t x, std::size_t y);
+
+/// A sample of 8 bits of the value, as develop() makes it.
+std::uint8_t developed_byte(double value);
 
 } // namespace vera

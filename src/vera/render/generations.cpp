@@ -86,19 +86,24 @@ void GenerationTracer::shade(
     std::span<const QueryRay> rays,
     std::span<const Hit> hits,
     std::span<const SurfacePoint> at,
-    std::span<Color> colors) {
+    std::span<Color> colors,
+    std::span<Color> terms) {
+    Level& work = level_buffers(1);
     for (std::size_t first = 0; first < rays.size(); first += generation_size) {
         const std::size_t count = std::min(generation_size, rays.size() - first);
         const std::span<const Hit> part_hits = hits.subspan(first, count);
         const std::span<Color> part_colors = colors.subspan(first, count);
+        work.term_stride = light_way_count * this->terms().count();
+        work.terms = terms.empty() ? nullptr : terms.data() + first * work.term_stride;
         find_places(
-            level_buffers(1),
+            work,
             rays.subspan(first, count),
             part_hits,
             [&](std::size_t i) -> const SurfacePoint& { return at[first + i]; },
             part_colors);
         shade_places(1, part_colors);
     }
+    work.terms = nullptr;
 }
 
 void GenerationTracer::trace(std::span<const QueryRay> rays, std::span<Color> colors) {
@@ -133,11 +138,15 @@ void GenerationTracer::find_places(
     level.blocks.resize(block_of(rays.size() + block_size - 1));
     level.mirrors = false;
     level.refracts = false;
+    if (level.terms != nullptr)
+        std::fill_n(level.terms, rays.size() * level.term_stride, Color{});
     std::size_t count = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const Vec3 direction = rays[i].ray.direction;
         if (!hits[i].found()) {
             colors[i] = firmament_color(traced_.firmament, direction);
+            if (level.terms != nullptr)
+                level.terms[i * level.term_stride + terms().firmament()] = colors[i];
             continue;
         }
         const SurfacePoint& surface = surface_of(i);
@@ -162,16 +171,16 @@ void GenerationTracer::find_places(
 
 void GenerationTracer::shade_places(std::uint32_t level, std::span<Color> colors) {
     Level& work = level_buffers(level);
-    for (const PointLight& light : traced_.illumination.lights)
+    for (std::size_t light = 0; light < traced_.illumination.lights.size(); ++light)
         light_places(work, light);
     color_places(work, colors);
     if (level < traced_.depth && (work.mirrors || work.refracts))
         trace_children(level, colors);
 }
 
-void GenerationTracer::light_places(Level& level, const PointLight& light) {
+void GenerationTracer::light_places(Level& level, std::size_t light) {
     lights_.resize(level.blocks.size());
-    light_up(level.blocks, light, lights_);
+    light_up(level.blocks, traced_.illumination.lights[light], lights_);
     if (traced_.shadows)
         cast_shadows(level);
     else
@@ -179,6 +188,21 @@ void GenerationTracer::light_places(Level& level, const PointLight& light) {
             for (BlockRow& row : block.visibility)
                 row.fill(1);
     add_light(level.blocks, lights_);
+    if (level.terms != nullptr)
+        note_light(level, light);
+}
+
+void GenerationTracer::note_light(const Level& level, std::size_t light) const {
+    for (std::size_t i = 0; i < lights_.size(); ++i) {
+        const LightBlock& block = lights_[i];
+        for_each_lane(block.lit, [&](std::size_t lane) {
+            const Place& place = level.places[i * block_size + lane];
+            Color* const ray_terms = level.terms + place.ray * level.term_stride;
+            const Color visibility = color_at(block.visibility, lane);
+            ray_terms[terms().diffuse(light)] = visibility * color_at(block.diffuse, lane);
+            ray_terms[terms().highlight(light)] = visibility * color_at(block.highlight, lane);
+        });
+    }
 }
 
 void GenerationTracer::cast_shadows(const Level& level) {
@@ -221,6 +245,15 @@ void GenerationTracer::color_places(const Level& level, std::span<Color> colors)
         if (place.look->is_luminous)
             color += luminosity(level.blocks[block_of(i)].cos_viewer[lane], *place.look->material);
         colors[place.ray] = color;
+        if (level.terms != nullptr) {
+            const Incidence at = incidence_at(level.blocks[block_of(i)], lane);
+            LocalTerms local = unlit(at, *place.look->material, traced_.illumination.ambient);
+            if (!traced_.luminosity)
+                local.luminosity = {};
+            Color* const ray_terms = level.terms + place.ray * level.term_stride;
+            ray_terms[RayTerms::ambient()] = local.ambient;
+            ray_terms[terms().luminosity()] = local.luminosity;
+        }
     }
 }
 
@@ -239,13 +272,20 @@ void GenerationTracer::trace_children(std::uint32_t level, std::span<Color> colo
         find_refracted(work);
 
     work.child_colors.resize(work.children.size());
+    Level& next = level_buffers(level + 1);
+    next.term_stride = terms().count();
+    if (work.terms != nullptr)
+        work.child_terms.resize(work.children.size() * next.term_stride);
     for (std::size_t first = 0; first < work.children.size(); first += generation_size) {
         const std::size_t count = std::min(generation_size, work.children.size() - first);
+        next.terms =
+            work.terms == nullptr ? nullptr : work.child_terms.data() + first * next.term_stride;
         trace_part(
             level + 1,
             std::span(work.child_rays).subspan(first, count),
             std::span(work.child_colors).subspan(first, count));
     }
+    next.terms = nullptr;
     add_children(work, colors);
 }
 
@@ -299,7 +339,27 @@ void GenerationTracer::add_children(const Level& level, std::span<Color> colors)
             color += place.look->material->rab * level.child_colors[i];
         if (child.kind != Child::Kind::mirrored)
             color += place.look->material->tab * level.child_colors[i];
+        if (level.terms != nullptr)
+            add_child_terms(level, i);
     }
+}
+
+void GenerationTracer::add_child_terms(const Level& level, std::size_t child) const {
+    const std::size_t count = terms().count();
+    const bool keeps_ways = level.term_stride > count;
+    const Place& place = level.places[level.children[child].place];
+    const Color* const child_terms = level.child_terms.data() + child * count;
+    const auto add = [&](LightWay way, Color part) {
+        Color* const ray_terms = level.terms + place.ray * level.term_stride
+            + (keeps_ways ? term_number(terms(), way, 0) : 0);
+        for (std::size_t i = 0; i < count; ++i)
+            ray_terms[i] += part * child_terms[i];
+    };
+    const Child::Kind kind = level.children[child].kind;
+    if (kind != Child::Kind::refracted)
+        add(LightWay::mirrored, place.look->material->rab);
+    if (kind != Child::Kind::mirrored)
+        add(LightWay::refracted, place.look->material->tab);
 }
 
 } // namespace vera

@@ -5,6 +5,7 @@
 #include "vera/base/parallel.h"
 #include "vera/math/color.h"
 #include "vera/render/buffer.h"
+#include "vera/render/ray_terms.h"
 #include "vera/render/statistics.h"
 #include "vera/scene/light.h"
 #include "vera/scene/picture_settings.h"
@@ -65,15 +66,21 @@ public:
     void
     surfaces(std::span<const QueryRay> rays, std::span<const Hit> hits, std::span<SurfacePoint> at);
 
-    /// What rays see that meet no face (hits[i] not found) or meet it at at[i].
+    /// What rays see that meet no face (hits[i] not found) or meet it at at[i]. Where terms is not
+    /// empty it is filled with those that the colours are made of, ray by ray, and of each ray by
+    /// term_number(); added up they are the colour, but for rounding.
     void shade(
         std::span<const QueryRay> rays,
         std::span<const Hit> hits,
         std::span<const SurfacePoint> at,
-        std::span<Color> colors);
+        std::span<Color> colors,
+        std::span<Color> terms = {});
 
     /// What the rays see: all of the above.
     void trace(std::span<const QueryRay> rays, std::span<Color> colors);
+
+    /// How the terms of this scene's rays are numbered.
+    RayTerms terms() const { return {traced_.illumination.lights.size()}; }
 
     /// Counted since the tracer was made, the view and probe rays by those who send them.
     RenderStatistics statistics;
@@ -112,6 +119,13 @@ private:
         Buffer<Child> children;
         Buffer<QueryRay> child_rays;
         Buffer<Color> child_colors;
+
+        /// Where the terms of the rays go, each ray's apart by term_stride; nullptr where nobody
+        /// asks for them. Those of view rays are kept apart by the way on which they come, those of
+        /// others are not.
+        Color* terms = nullptr;
+        std::size_t term_stride = 0;
+        Buffer<Color> child_terms;
     };
 
     void trace_part(std::uint32_t level, std::span<const QueryRay> rays, std::span<Color> colors);
@@ -123,13 +137,15 @@ private:
         const SurfaceOf& surface_of,
         std::span<Color> colors);
     void shade_places(std::uint32_t level, std::span<Color> colors);
-    void light_places(Level& level, const PointLight& light);
+    void light_places(Level& level, std::size_t light);
+    void note_light(const Level& level, std::size_t light) const;
     void cast_shadows(const Level& level);
     void color_places(const Level& level, std::span<Color> colors);
     void trace_children(std::uint32_t level, std::span<Color> colors);
     void find_mirrored(Level& level);
     void find_refracted(Level& level);
     void add_children(const Level& level, std::span<Color> colors) const;
+    void add_child_terms(const Level& level, std::size_t child) const;
     Level& level_buffers(std::uint32_t level);
 
     const TracedScene& traced_;

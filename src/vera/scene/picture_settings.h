@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 namespace vera {
 
@@ -46,6 +47,10 @@ struct PictureSettings {
     Antialiasing antialiasing;          ///< ANTI-ALIAS
     std::optional<double> frame_margin; ///< automatic framing; the margin, as part of the picture
     double pixel_aspect = 1; ///< width of a pixel by its height, used by automatic framing
+    /// LIGHTS: what each of the scene's lights is multiplied by, in their order; empty where the
+    /// lights stay as they are. Whoever reads a scene applies them: see scale_lights().
+    std::vector<double> light_factors = {};
+    std::uint32_t light_factors_line = 0; ///< of the control file, for messages; 0: none
 };
 
 } // namespace vera

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vera/base/output_file.h"
+#include "vera/render/raster.h"
+
+#include <optional>
+
+#include "command.h"
+#include "explanation.h"
+#include "interrupt.h"
+#include "messages.h"
+#include "option_values.h"
+#include "prepared_scene.h"
+#include "progress_display.h"
+#include "scene_index.h"
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace vera {
+
+namespace {
+
+struct Request {
+    SceneRequest scene;
+    IndexRequest index;
+    double x = 0;
+    double y = 0;
+    std::string svg;
+    bool json = false;
+};
+
+TracedScene lit_scene(
+    const PreparedScene& prepared,
+    const RayIndex& index,
+    std::optional<Exposure>& exposure,
+    const CancelFlag& cancel) {
+    TracedScene traced = traced_scene(prepared.scene, index, prepared.settings, &cancel);
+    RenderStatistics statistics;
+    if (prepared.settings.exposure)
+        exposure = expose(traced, prepared.camera, *prepared.settings.exposure, statistics);
+    return traced;
+}
+
+RayTree tree_of(const TracedScene& traced, const PreparedScene& prepared, double x, double y) {
+    const PictureSettings& settings = prepared.settings;
+    const Raster raster = {ViewRays(prepared.camera), settings.width, settings.height};
+    RayTree tree = ray_tree(traced, raster.ray(x, y));
+    if (tree.complete)
+        return tree;
+    Diagnostic wrong;
+    if (!prepared.scene.files.empty())
+        wrong.place.file = prepared.scene.files.front();
+    wrong.problem =
+        fmt::format("the ray tree of this pixel has more than {} rays", RayTree::most_nodes);
+    wrong.remedy = "follow fewer levels, as in --depth 8: the picture of that depth is explained";
+    throw InputError({wrong});
+}
+
+void explain(const Request& request, const Console& console) {
+    PreparedScene prepared = prepared_scene(request.scene);
+    print_diagnostics(prepared.warnings, console);
+    const PictureSettings& settings = prepared.settings;
+    const std::uint32_t x = whole_of("X", request.x, 0, settings.width - 1);
+    const std::uint32_t y = whole_of("Y", request.y, 0, settings.height - 1);
+    std::optional<OutputFile> svg;
+    if (!request.svg.empty())
+        svg.emplace(request.svg);
+
+    const CancellableWork work;
+    std::unique_ptr<RayIndex> index;
+    {
+        ProgressDisplay display(console, "index");
+        index = scene_index(prepared.scene, request.index, display.callback(), console.cancel);
+    }
+    std::optional<Exposure> exposure;
+    const TracedScene traced = lit_scene(prepared, *index, exposure, console.cancel);
+    Explanation explanation = {
+        .prepared = prepared,
+        .traced = traced,
+        .index = request.index.kind == "auto" ? "bvh" : request.index.kind,
+        .exposure = exposure,
+        .x = x,
+        .y = y,
+        .tree = tree_of(traced, prepared, request.x, request.y),
+        .layers = picture_layers(traced),
+        .samples = {}};
+    const RayTerms terms = {traced.illumination.lights.size()};
+    explanation.samples = layer_samples(
+        explanation.layers,
+        ray_terms(explanation.tree, terms),
+        explanation.tree.nodes.front().color);
+
+    if (svg) {
+        ProgressDisplay display(console, "draw");
+        svg->write(explanation_svg(explanation, display.callback(), console.cancel));
+        svg->commit();
+    }
+    if (request.json)
+        fmt::print("{}\n", explanation_json(explanation).dump(2));
+    else if (request.svg != "-")
+        fmt::print("{}", explanation_text(explanation));
+}
+
+} // namespace
+
+/// vera explain SCENE X Y
+void add_explain_command(CLI::App& app, Console& console) {
+    const auto request = std::make_shared<Request>();
+
+    CLI::App* command = app.add_subcommand("explain", "why a pixel has its colour");
+    add_scene_options(*command, request->scene);
+    command->add_option("x", request->x, "column of the pixel, 0 at the left")
+        ->required()
+        ->type_name("X");
+    command->add_option("y", request->y, "row of the pixel, 0 at the top")
+        ->required()
+        ->type_name("Y");
+    add_index_options(*command, request->index);
+    command->add_flag("--json", request->json, "the same as JSON, every number exact");
+    command
+        ->add_option("--svg", request->svg, "drawing of the rays to write; - for standard output")
+        ->type_name("FILE");
+    add_console_options(*command, console);
+    command->footer(
+        "Shows each ray of the pixel's ray tree, what it meets, what every light gives\n"
+        "there, every term of the lighting formula, and their sum to the byte.\n"
+        "Examples:\n"
+        "  vera explain still_life.vera 256 300 -c still_life.ctl\n"
+        "  vera explain scene.vera 10 20 --raster 64x64 --json\n"
+        "  vera explain scene.vera 256 300 --svg rays.svg");
+
+    command->callback([request, &console] { explain(*request, console); });
+}
+
+} // namespace vera

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene_objects.h"
+
+#include "vera/formats/item_place.h"
+#include "vera/scene/item_names.h"
+#include "vera/scene/primitive_location.h"
+
+#include <system_error>
+
+#include <fmt/format.h>
+
+namespace vera {
+
+SceneObject SceneObjects::object(FaceId face) {
+    SceneObject object;
+    object.number = face.primitive + 1;
+    const Geometry* geometry = &scene_.geometry;
+    PrimitiveLocation location = location_of(*geometry, face.primitive);
+    while (geometry->items[location.item].kind == ItemKind::subscene_call) {
+        const Item& item = geometry->items[location.item];
+        geometry =
+            &scene_.subscenes[static_cast<std::size_t>(geometry->calls[item.index].subscene)];
+        object.calls.push_back({geometry->name, place(item)});
+        location = location_of(*geometry, location.within);
+    }
+    const Item& item = geometry->items[location.item];
+    object.kind = name_of(item.kind);
+    if (item.kind == ItemKind::mesh) {
+        object.kind = "triangle of a mesh";
+        object.triangle = location.within + 1;
+    }
+    object.place = place(item);
+    return object;
+}
+
+SourcePlace SceneObjects::place(const Item& item) {
+    if (item.file >= scene_.files.size())
+        return {};
+    const std::string& file = scene_.files[item.file];
+    const auto [found, is_new] = texts_.try_emplace(item.file);
+    if (is_new && file != "-") {
+        try {
+            found->second = std::make_unique<SourceText>(file);
+        } catch (const std::system_error&) {
+            // Gone since it was read; the line is known all the same.
+        }
+    }
+    if (!found->second)
+        return {file, item.line, 1};
+    return source_place(item_place(item, *found->second));
+}
+
+std::string to_text(const SourcePlace& place) {
+    if (place.line == 0)
+        return place.file;
+    return fmt::format("{}:{}:{}", place.file, place.line, place.column);
+}
+
+std::string short_name(const SceneObject& object) {
+    return fmt::format("{} {} ({})", object.kind, object.number, to_text(object.place));
+}
+
+std::string material_name(const Scene& scene, MaterialId material) {
+    const auto number = static_cast<std::size_t>(material);
+    return number < scene.materials.size() ? scene.materials[number].name : "none";
+}
+
+} // namespace vera
