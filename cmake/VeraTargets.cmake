@@ -31,7 +31,7 @@ function(vera_folder name)
     if(FOLDER_SOURCES)
         add_library(vera_${name} STATIC ${FOLDER_SOURCES})
         target_link_libraries(vera_${name} PUBLIC vera_options ${FOLDER_LINKS})
-        if(VERA_BUILD_FUZZERS AND name MATCHES "^(formats|image)$")
+        if(VERA_BUILD_FUZZERS AND name MATCHES "^(formats|generate|image)$")
             # What reads strange bytes tells the fuzzer which branches it took.
             target_compile_options(vera_${name} PRIVATE -fsanitize=fuzzer-no-link)
         endif()

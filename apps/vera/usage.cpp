@@ -13,10 +13,16 @@ namespace vera {
 
 namespace {
 
-/// The subcommand in use, or the program itself.
+/// The subcommand in use, or of subcommands the innermost one, or the program itself.
 const CLI::App& command_in_use(const CLI::App& app) {
     const auto used = app.get_subcommands();
-    return used.empty() ? app : *used.front();
+    return used.empty() ? app : command_in_use(*used.front());
+}
+
+/// "vera make balls"
+std::string full_name(const CLI::App& command) {
+    const CLI::App* const parent = command.get_parent();
+    return parent == nullptr ? command.get_name() : full_name(*parent) + " " + command.get_name();
 }
 
 std::vector<std::string> command_names(const CLI::App& command) {
@@ -81,10 +87,7 @@ std::optional<std::string> wrong_choice(const CLI::App& command, std::string_vie
 } // namespace
 
 std::string with_help_hint(const CLI::App& app, std::string_view problem) {
-    const CLI::App& command = command_in_use(app);
-    const std::string name =
-        &command == &app ? app.get_name() : app.get_name() + " " + command.get_name();
-    return fmt::format("{} ('{} --help' tells more)", problem, name);
+    return fmt::format("{} ('{} --help' tells more)", problem, full_name(command_in_use(app)));
 }
 
 std::string usage_problem(const CLI::App& app, const CLI::ParseError& error) {
