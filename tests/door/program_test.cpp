@@ -16,7 +16,8 @@ TEST(Program, TellsItsVersion) {
 
 TEST(Program, HelpsOnItselfAndEveryCommandWithExamples) {
     const ScratchFolder folder;
-    for (const char* arguments : {"--help", "render --help", "check --help", "info --help"}) {
+    for (const char* arguments :
+         {"--help", "render --help", "convert --help", "check --help", "info --help"}) {
         const ProgramRun run = run_vera(folder, arguments);
         EXPECT_EQ(run.exit_code, 0) << arguments;
         EXPECT_NE(run.out.find("Examples:"), std::string::npos) << arguments;
@@ -31,7 +32,7 @@ TEST(Program, SaysWhatIsWrongWithACommandLine) {
         const char* arguments;
         const char* problem;
     } wrong[] = {
-        {"", "vera: error: say what to do: render, draw, check or info"},
+        {"", "vera: error: say what to do: render, draw, convert, check or info"},
         {"rendr a.vera", "vera: error: unknown command 'rendr'; did you mean 'render'?"},
         {"render a.vera -o a.png --rastr 5x5",
          "unknown option '--rastr'; did you mean '--raster'?"},

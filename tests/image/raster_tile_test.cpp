@@ -73,8 +73,10 @@ void code_and_compare(unsigned seed) {
 
     TileStreams streams;
     ASSERT_TRUE(unpack(bytes, sizeof(Sample) * shape.pixels(), streams));
-    const auto expected = reference::decoded_tile(
-        streams, shape, static_cast<int>(channels), sizeof(Sample), static_cast<int>(error));
+    const auto expected =
+        reference::TileReader(
+            streams, shape, static_cast<int>(channels), sizeof(Sample), static_cast<int>(error))
+            .samples();
     ASSERT_TRUE(expected);
     for (std::size_t i = 0; i < samples.size(); ++i)
         ASSERT_EQ(decoded[i], (*expected)[i]) << i;
@@ -92,9 +94,41 @@ TEST(RasterTile, HoldsTheErrorAndIsDecodedAsTheFormatSays) {
     }
 }
 
-/// Streams that no encoder writes: any commands, few values, now and then too many or too few.
-TEST(RasterTile, DecodesAnyStreamsAsTheReferenceDoesOrRefusesThem) {
+void add_bytes(std::vector<std::uint8_t>& stream, int count, Random& random) {
     const std::uint8_t bytes[] = {0, 1, 2, 127, 128, 255};
+    for (int i = 0; i < count; ++i)
+        stream.push_back(bytes[random() % 6]);
+}
+
+int some_command(Random& random) {
+    if (random() % 50 == 0)
+        return below(random, 256);
+    const int kind = below(random, 12);
+    if (kind > 7)
+        return 177 + 18 * below(random, 4) + below(random, 4);
+    return kind < 4 ? below(random, 177) : 175 + below(random, 2);
+}
+
+/// Streams that no encoder writes: any commands, few values, now and then too many or too few.
+TileStreams some_streams(TileShape shape, std::size_t channels, Random& random) {
+    TileStreams streams;
+    std::size_t pixels = 0;
+    while (pixels < shape.pixels()) {
+        const int command = some_command(random);
+        streams.commands.push_back(static_cast<std::uint8_t>(command));
+        if (command == 175 || command == 176 || command >= 231)
+            for (std::size_t c = 0; c < channels; ++c)
+                add_bytes(streams.values[c], 1, random);
+        pixels += command < 177 ? 1 : static_cast<std::size_t>((command - 177) % 18 + 1);
+    }
+    if (random() % 20 == 0)
+        add_bytes(streams.values[random() % 3], 1, random);
+    if (random() % 20 == 0)
+        add_bytes(streams.lengths, 1 + below(random, 2), random);
+    return streams;
+}
+
+TEST(RasterTile, DecodesAnyStreamsAsTheReferenceDoesOrRefusesThem) {
     int whole = 0;
     for (unsigned seed = 0; seed < 60000; ++seed) {
         Random random(seed);
@@ -102,33 +136,12 @@ TEST(RasterTile, DecodesAnyStreamsAsTheReferenceDoesOrRefusesThem) {
             static_cast<std::size_t>(1 + below(random, 5)),
             static_cast<std::size_t>(1 + below(random, 4))};
         const std::size_t channels = random() % 2 == 0 ? 1 : 3;
-        TileStreams streams;
-        const auto some_bytes = [&](std::vector<std::uint8_t>& stream, int count) {
-            for (int i = 0; i < count; ++i)
-                stream.push_back(bytes[random() % 6]);
-        };
-        std::size_t pixels = 0;
-        while (pixels < shape.pixels()) {
-            const int kind = below(random, 12);
-            int command = kind < 4 ? below(random, 177) : 175 + below(random, 2);
-            if (kind > 7)
-                command = 177 + 18 * below(random, 4) + below(random, 4);
-            if (random() % 50 == 0)
-                command = below(random, 256);
-            streams.commands.push_back(static_cast<std::uint8_t>(command));
-            if (command == 175 || command == 176 || command >= 231)
-                for (std::size_t c = 0; c < channels; ++c)
-                    some_bytes(streams.values[c], 1);
-            pixels += command < 177 ? 1 : static_cast<std::size_t>((command - 177) % 18 + 1);
-        }
-        if (random() % 20 == 0)
-            some_bytes(streams.values[random() % 3], 1);
-        if (random() % 20 == 0)
-            some_bytes(streams.lengths, 1 + below(random, 2));
-
+        const TileStreams streams = some_streams(shape, channels, random);
         const auto error = static_cast<unsigned>(below(random, 3));
-        const auto expected = reference::decoded_tile(
-            streams, shape, static_cast<int>(channels), 1, static_cast<int>(error));
+        const auto expected =
+            reference::TileReader(
+                streams, shape, static_cast<int>(channels), 1, static_cast<int>(error))
+                .samples();
         std::vector<std::uint8_t> decoded;
         const bool good =
             decode_tile<std::uint8_t>(packed(streams), shape, channels, error, decoded);

@@ -197,9 +197,12 @@ Image decoded_image(std::span<const std::byte> bytes, const std::string& name) {
         name, text.empty() ? "it is empty" : "its first bytes are those of no format known here");
 }
 
+std::vector<std::byte> file_bytes(const std::filesystem::path& path) {
+    return bytes_of(path, path == "-" ? "standard input" : fmt::format("'{}'", path.string()));
+}
+
 Image read_image(const std::filesystem::path& path) {
-    const std::string name = path == "-" ? "standard input" : path.string();
-    return decoded_image(bytes_of(path, path == "-" ? name : "'" + name + "'"), name);
+    return decoded_image(file_bytes(path), path == "-" ? "standard input" : path.string());
 }
 
 namespace detail {

@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace vera {
 
@@ -73,6 +74,9 @@ void write_image(
 /// picture, std::system_error when it cannot be read, std::runtime_error when the memory does not
 /// suffice.
 Image read_image(const std::filesystem::path& path);
+
+/// All bytes of a file, or of standard input where the path is "-". Throws std::system_error.
+std::vector<std::byte> file_bytes(const std::filesystem::path& path);
 
 /// The picture in the bytes of a file; the name is for messages.
 Image decoded_image(std::span<const std::byte> bytes, const std::string& name);

@@ -136,7 +136,7 @@ private:
             command + std::min(rest, static_cast<std::size_t>(last - command));
         Sample* sample = samples_ + at_;
         const Sample* above = sample - row_;
-        Pixel left = Pixel{};
+        Pixel left{};
         Pixel corner = left;
         if (!edge) {
             left = load(sample - Channels);
