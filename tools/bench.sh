@@ -13,6 +13,8 @@ bench_usage() {
 ./dev bench faces ...    whether any face is wrong, in the map and in files, at a million points a scene
 ./dev bench leaks ...    whether the background shines through drawings, in five programs
 ./dev bench sizes ...    how large drawings are beside what they need
+./dev bench raster ...   the compressed raster, against PNG
+./dev bench colors ...   pictures of few colours, against ImageMagick
 ./dev bench plots ...    plots and tables of docs/performance.md from the results
 ./dev bench PART --help  says what the part takes
 
@@ -82,6 +84,18 @@ bench_sizes() {
     step "weigh drawings" bench/drawings/sizes "$@"
 }
 
+bench_raster() {
+    # shellcheck disable=SC2046 # one option or none
+    step "build" build release $(without_tests) -DVERA_BUILD_BENCHMARKS=ON -- vera raster_bench
+    step "compare with PNG" bench/raster "$@"
+}
+
+bench_colors() {
+    # shellcheck disable=SC2046 # one option or none
+    step "build" build release $(without_tests) -DVERA_BUILD_BENCHMARKS=ON -- vera colors_bench
+    step "compare with ImageMagick" bench/colors "$@"
+}
+
 bench_plots() {
     step "plots and tables" bench/plots.py "$@"
 }
@@ -89,7 +103,7 @@ bench_plots() {
 bench() {
     case ${1:-} in
     --help | -h) bench_usage ;;
-    peers | rays | growth | billion | drawings | engines | faces | leaks | sizes | plots)
+    peers | rays | growth | billion | drawings | engines | faces | leaks | sizes | raster | colors | plots)
         step "install packages" install_packages build bench
         "bench_$1" "${@:2}"
         ;;
@@ -104,6 +118,8 @@ bench() {
         bench_faces
         bench_leaks
         bench_sizes
+        bench_raster
+        bench_colors
         bench_plots
         ;;
     *)

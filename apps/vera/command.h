@@ -41,6 +41,7 @@ public:
 // app.
 void add_render_command(CLI::App& app, Console& console);
 void add_draw_command(CLI::App& app, Console& console);
+void add_convert_command(CLI::App& app, Console& console);
 void add_check_command(CLI::App& app, Console& console);
 void add_info_command(CLI::App& app, Console& console);
 void add_ladder_command(CLI::App& app, Console& console);

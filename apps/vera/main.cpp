@@ -63,6 +63,7 @@ int main(int argc, char** argv) {
                "  vera render scene.vera -o picture.png\n"
                "  vera render bunny.obj -o bunny.png --raster 1024x1024\n"
                "  vera draw scene.vera -o drawing.svg\n"
+               "  vera convert picture.png small.gif --colors 16\n"
                "  vera check scene.vera\n"
                "  vera info scene.vera\n"
                "  vera ladder scene.vera -o steps\n"
@@ -73,6 +74,7 @@ int main(int argc, char** argv) {
                "3 the machine failed, 130 interrupted.");
     vera::add_render_command(app, console);
     vera::add_draw_command(app, console);
+    vera::add_convert_command(app, console);
     vera::add_check_command(app, console);
     vera::add_info_command(app, console);
     vera::add_ladder_command(app, console);

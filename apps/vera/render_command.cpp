@@ -66,7 +66,7 @@ ImageFileFormat output_format(const Request& request) {
     throw CommandLineError(fmt::format(
         "cannot tell the format of '{}' by its name; {}give --format with one of {}",
         request.output,
-        similar_file(request.output, {".png", ".exr", ".jpg", ".jpeg", ".ppm", ".pfm"}),
+        similar_file(request.output, {".png", ".exr", ".jpg", ".jpeg", ".ppm", ".pfm", ".vra"}),
         format_names()));
 }
 

@@ -9,7 +9,7 @@ namespace {
 TEST(RenderCommand, WritesEveryFormatBySuffixAndByName) {
     const ScratchFolder folder;
     folder.write("a.vera", small_scene);
-    for (const char* name : {"a.png", "a.exr", "a.jpg", "a.ppm", "a.pfm"}) {
+    for (const char* name : {"a.png", "a.exr", "a.jpg", "a.ppm", "a.pfm", "a.vra"}) {
         const ProgramRun run =
             run_vera(folder, std::string("render a.vera --raster 40x30 -o ") + name);
         ASSERT_EQ(run.exit_code, 0) << name << '\n' << run.err;

@@ -35,7 +35,9 @@ constexpr ImageFileFormat all_formats[] = {
     ImageFileFormat::jpeg,
     ImageFileFormat::ppm8,
     ImageFileFormat::ppm16,
-    ImageFileFormat::pfm};
+    ImageFileFormat::pfm,
+    ImageFileFormat::vra8,
+    ImageFileFormat::vra16};
 
 /// An empty folder for a test, removed at its end.
 class ImageFile : public testing::Test {
@@ -434,7 +436,7 @@ TEST(FormatFromExtension, KnowsTheFormatsInAnyCase) {
 }
 
 TEST(FormatFromName, KnowsEveryNameItLists) {
-    EXPECT_EQ(format_names(), "png, png16, exr, exr-float, jpeg, ppm, ppm16, pfm");
+    EXPECT_EQ(format_names(), "png, png16, exr, exr-float, jpeg, ppm, ppm16, pfm, vra, vra16");
     EXPECT_EQ(format_from_name("png16"), ImageFileFormat::png16);
     EXPECT_EQ(format_from_name("EXR-float"), ImageFileFormat::exr_float);
     EXPECT_EQ(format_from_name("jpg"), ImageFileFormat::jpeg);

@@ -30,11 +30,18 @@ void write_exr(
 void write_ppm(const Image& image, OutputFile& file, const PictureMetadata& metadata);
 void write_pfm(const Image& image, OutputFile& file);
 
+void write_vra(
+    const Image& image,
+    OutputFile& file,
+    const PictureMetadata& metadata,
+    const ImageWriteSettings& settings);
+
 Image read_png(std::span<const std::byte> bytes, const std::string& name);
 Image read_jpeg(std::span<const std::byte> bytes, const std::string& name);
 Image read_exr(std::span<const std::byte> bytes, const std::string& name);
 Image read_ppm(std::span<const std::byte> bytes, const std::string& name);
 Image read_pfm(std::span<const std::byte> bytes, const std::string& name);
+Image read_vra(std::span<const std::byte> bytes, const std::string& name);
 
 /// Throws the InputError for a picture that cannot be read.
 [[noreturn]] void throw_damaged(const std::string& name, const std::string& problem);

@@ -34,7 +34,9 @@ constexpr std::array formats = {
     NamedFormat{"jpeg", ImageFileFormat::jpeg},
     NamedFormat{"ppm", ImageFileFormat::ppm8},
     NamedFormat{"ppm16", ImageFileFormat::ppm16},
-    NamedFormat{"pfm", ImageFileFormat::pfm}};
+    NamedFormat{"pfm", ImageFileFormat::pfm},
+    NamedFormat{"vra", ImageFileFormat::vra8},
+    NamedFormat{"vra16", ImageFileFormat::vra16}};
 
 std::string in_small_letters(std::string_view text) {
     std::string small(text);
@@ -95,7 +97,7 @@ std::vector<std::byte> bytes_of(const std::filesystem::path& path, const std::st
 
 std::optional<ImageFileFormat> format_from_extension(const std::filesystem::path& path) {
     const std::string extension = in_small_letters(path.extension().native());
-    for (const std::string_view known : {"png", "exr", "jpg", "jpeg", "ppm", "pfm"})
+    for (const std::string_view known : {"png", "exr", "jpg", "jpeg", "ppm", "pfm", "vra"})
         if (extension.size() == known.size() + 1 && extension.ends_with(known))
             return format_from_name(known);
     return std::nullopt;
@@ -125,9 +127,11 @@ SampleType sample_type(ImageFileFormat format) {
     case ImageFileFormat::png8:
     case ImageFileFormat::jpeg:
     case ImageFileFormat::ppm8:
+    case ImageFileFormat::vra8:
         return SampleType::integer8;
     case ImageFileFormat::png16:
     case ImageFileFormat::ppm16:
+    case ImageFileFormat::vra16:
         return SampleType::integer16;
     default:
         return SampleType::float32;
@@ -158,6 +162,9 @@ void write_image(
         return detail::write_ppm(image, file, metadata);
     case ImageFileFormat::pfm:
         return detail::write_pfm(image, file);
+    case ImageFileFormat::vra8:
+    case ImageFileFormat::vra16:
+        return detail::write_vra(image, file, metadata, settings);
     }
 }
 
@@ -180,6 +187,8 @@ Image decoded_image(std::span<const std::byte> bytes, const std::string& name) {
         return detail::read_jpeg(bytes, name);
     if (text.starts_with("\x76\x2f\x31\x01"))
         return detail::read_exr(bytes, name);
+    if (text.starts_with("\x89VRA"))
+        return detail::read_vra(bytes, name);
     if (text.starts_with("P6"))
         return detail::read_ppm(bytes, name);
     if (text.starts_with("PF"))
@@ -188,9 +197,12 @@ Image decoded_image(std::span<const std::byte> bytes, const std::string& name) {
         name, text.empty() ? "it is empty" : "its first bytes are those of no format known here");
 }
 
+std::vector<std::byte> file_bytes(const std::filesystem::path& path) {
+    return bytes_of(path, path == "-" ? "standard input" : fmt::format("'{}'", path.string()));
+}
+
 Image read_image(const std::filesystem::path& path) {
-    const std::string name = path == "-" ? "standard input" : path.string();
-    return decoded_image(bytes_of(path, path == "-" ? name : "'" + name + "'"), name);
+    return decoded_image(file_bytes(path), path == "-" ? "standard input" : path.string());
 }
 
 namespace detail {
@@ -199,7 +211,7 @@ void throw_damaged(const std::string& name, const std::string& problem) {
     throw InputError({Diagnostic{
         .place = {.file = name},
         .problem = "this is no picture that can be read: " + problem,
-        .remedy = "give a whole PNG, EXR, JPEG, PPM (P6) or PFM (PF) file"}});
+        .remedy = "give a whole PNG, EXR, JPEG, PPM (P6), PFM (PF) or VRA file"}});
 }
 
 void check_plausible(

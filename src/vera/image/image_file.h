@@ -9,19 +9,31 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace vera {
 
 class OutputFile;
 
-enum class ImageFileFormat { png8, png16, exr_half, exr_float, jpeg, ppm8, ppm16, pfm };
+enum class ImageFileFormat {
+    png8,
+    png16,
+    exr_half,
+    exr_float,
+    jpeg,
+    ppm8,
+    ppm16,
+    pfm,
+    vra8,
+    vra16
+};
 
 /// The format that a file's extension stands for, in capitals or not: .png, .exr (half), .jpg,
-/// .jpeg, .ppm and .pfm; the formats of 8 bits for .png and .ppm.
+/// .jpeg, .ppm, .pfm and .vra; the formats of 8 bits for .png, .ppm and .vra.
 std::optional<ImageFileFormat> format_from_extension(const std::filesystem::path& path);
 
 /// The format of a name that a user may write: png, png16, exr, exr-float, jpeg or jpg, ppm, ppm16,
-/// pfm; in capitals or not.
+/// pfm, vra, vra16; in capitals or not.
 std::optional<ImageFileFormat> format_from_name(std::string_view name);
 
 /// The names, one a format, as a message lists them: "png, png16, ...".
@@ -31,8 +43,9 @@ std::string format_names();
 SampleType sample_type(ImageFileFormat format);
 
 struct ImageWriteSettings {
-    int jpeg_quality = 95;   ///< 1 to 100; colours are never subsampled
-    int png_compression = 1; ///< 0 (none) to 9 (small by a seventh, and slow)
+    int jpeg_quality = 95;     ///< 1 to 100; colours are never subsampled
+    int png_compression = 1;   ///< 0 (none) to 9 (small by a seventh, and slow)
+    unsigned raster_error = 0; ///< RasterWriteSettings::largest_error, for vra and vra16
 };
 
 /// Writes the picture, whole or not at all; "-" is standard output. The same image, metadata and
@@ -61,6 +74,9 @@ void write_image(
 /// picture, std::system_error when it cannot be read, std::runtime_error when the memory does not
 /// suffice.
 Image read_image(const std::filesystem::path& path);
+
+/// All bytes of a file, or of standard input where the path is "-". Throws std::system_error.
+std::vector<std::byte> file_bytes(const std::filesystem::path& path);
 
 /// The picture in the bytes of a file; the name is for messages.
 Image decoded_image(std::span<const std::byte> bytes, const std::string& name);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/base/output_file.h"
 #include "vera/image/codecs.h"
+#include "vera/image/indexed_file.h"
 
 #include <algorithm>
 #include <array>
@@ -161,6 +162,60 @@ bool encode(const Writer& writer, const Rows& rows, const std::vector<png_text>&
     return true;
 }
 
+/// The next row's numbers; false when there is none, since something was thrown, which is kept.
+bool next_row(const IndexedPicture& picture, std::span<std::uint8_t> row, Stream& stream) noexcept {
+    try {
+        picture.next_row(row);
+        return true;
+    } catch (...) {
+        stream.failure = std::current_exception();
+        return false;
+    }
+}
+
+bool encode_indexed(
+    const Writer& writer,
+    const IndexedPicture& picture,
+    std::span<std::uint8_t> row,
+    std::span<const png_color> colors,
+    const std::vector<png_text>& texts,
+    Stream& stream) noexcept {
+    png_structp png = writer.png;
+    if (setjmp(png_jmpbuf(png)) != 0)
+        return false;
+    constexpr int compression = 9;
+    png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
+    png_set_compression_level(png, compression);
+    // Numbers of colours are no amounts: differences of them mean nothing.
+    png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
+    int bits = 1;
+    while (colors.size() > std::size_t{1} << bits)
+        bits *= 2;
+    png_set_IHDR(
+        png,
+        writer.info,
+        static_cast<png_uint_32>(picture.width),
+        static_cast<png_uint_32>(picture.height),
+        bits,
+        PNG_COLOR_TYPE_PALETTE,
+        PNG_INTERLACE_NONE,
+        PNG_COMPRESSION_TYPE_DEFAULT,
+        PNG_FILTER_TYPE_DEFAULT);
+    png_set_PLTE(png, writer.info, colors.data(), static_cast<int>(colors.size()));
+    png_set_sRGB_gAMA_and_cHRM(png, writer.info, PNG_sRGB_INTENT_PERCEPTUAL);
+    if (!texts.empty())
+        png_set_text(png, writer.info, texts.data(), static_cast<int>(texts.size()));
+    png_write_info(png, writer.info);
+    png_set_packing(png);
+    for (std::size_t y = 0; y < picture.height; ++y) {
+        if (!next_row(picture, row, stream))
+            return false;
+        png_write_row(png, row.data());
+    }
+    png_write_end(png, nullptr);
+    return true;
+}
+
 struct Header {
     png_uint_32 width = 0;
     png_uint_32 height = 0;
@@ -204,6 +259,18 @@ bool decode_pixels(const Reader& reader, const Header& header, unsigned char* fi
     return true;
 }
 
+void check_sides(std::size_t width, std::size_t height, const OutputFile& file) {
+    if (width > PNG_UINT_31_MAX || height > PNG_UINT_31_MAX)
+        throw std::runtime_error(
+            "cannot write " + file.name() + ": a PNG picture has at most 2147483647 pixels a side");
+}
+
+[[noreturn]] void throw_failure(const Stream& stream, const OutputFile& file) {
+    if (stream.failure)
+        std::rethrow_exception(stream.failure);
+    throw std::runtime_error("cannot write " + file.name() + ": libpng: " + stream.message.data());
+}
+
 } // namespace
 
 void write_png(
@@ -211,9 +278,7 @@ void write_png(
     OutputFile& file,
     const PictureMetadata& metadata,
     const ImageWriteSettings& settings) {
-    if (image.width > PNG_UINT_31_MAX || image.height > PNG_UINT_31_MAX)
-        throw std::runtime_error(
-            "cannot write " + file.name() + ": a PNG picture has at most 2147483647 pixels a side");
+    check_sides(image.width, image.height, file);
     const std::size_t sample_bytes = size_of(sample_type(image));
     const Rows rows = {
         std::visit(
@@ -229,11 +294,8 @@ void write_png(
     Stream stream = {.file = &file, .unread = {}, .failure = {}};
     const Writer writer(stream);
     const TextChunks texts(metadata);
-    if (encode(writer, rows, texts.chunks))
-        return;
-    if (stream.failure)
-        std::rethrow_exception(stream.failure);
-    throw std::runtime_error("cannot write " + file.name() + ": libpng: " + stream.message.data());
+    if (!encode(writer, rows, texts.chunks))
+        throw_failure(stream, file);
 }
 
 Image read_png(std::span<const std::byte> bytes, const std::string& name) {
@@ -256,3 +318,21 @@ Image read_png(std::span<const std::byte> bytes, const std::string& name) {
 }
 
 } // namespace vera::detail
+
+namespace vera {
+
+void write_indexed_png(
+    const IndexedPicture& picture, OutputFile& file, const PictureMetadata& metadata) {
+    detail::check_sides(picture.width, picture.height, file);
+    std::vector<png_color> colors;
+    for (const auto& [red, green, blue] : picture.palette)
+        colors.push_back({red, green, blue});
+    std::vector<std::uint8_t> row(picture.width);
+    detail::Stream stream = {.file = &file, .unread = {}, .failure = {}};
+    const detail::Writer writer(stream);
+    const detail::TextChunks texts(metadata);
+    if (!detail::encode_indexed(writer, picture, row, colors, texts.chunks, stream))
+        detail::throw_failure(stream, file);
+}
+
+} // namespace vera

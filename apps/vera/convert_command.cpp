@@ -1,0 +1,546 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vera/base/diagnostic.h"
+#include "vera/base/output_file.h"
+#include "vera/base/version.h"
+#include "vera/image/compressed_raster.h"
+#include "vera/image/converted_image.h"
+#include "vera/image/dither.h"
+#include "vera/image/image_file.h"
+#include "vera/image/indexed_file.h"
+#include "vera/math/elementary.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <filesystem>
+#include <map>
+#include <optional>
+
+#include "command.h"
+#include "interrupt.h"
+#include "messages.h"
+#include "option_values.h"
+#include "progress_display.h"
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace vera {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double jpeg_quality_by_default = 95;
+constexpr double delay_by_default = 10;
+
+struct Request {
+    std::vector<std::string> paths; ///< pictures to read, and at the end what to write
+    std::string format;
+    double colors = 0;
+    std::string palette;
+    std::optional<Dither> dither;
+    bool palette_for_all = false;
+    std::string crop;
+    double exposure = 0;
+    double error = 0;
+    double jpeg_quality = jpeg_quality_by_default;
+    double delay = delay_by_default;
+    double threads = 0;
+
+    std::string output() const { return paths.back(); }
+
+    std::vector<std::string> inputs() const { return {paths.begin(), paths.end() - 1}; }
+
+    bool is_reduced() const { return colors != 0 || !palette.empty(); }
+};
+
+/// What is written: a GIF, or one of the formats that hold any colours.
+struct Format {
+    std::optional<ImageFileFormat> of_image;
+
+    bool is_gif() const { return !of_image; }
+};
+
+std::optional<Format> format_named(const std::string& name) {
+    if (CLI::detail::to_lower(name) == "gif")
+        return Format{};
+    if (const auto format = format_from_name(name))
+        return Format{format};
+    return std::nullopt;
+}
+
+Format output_format(const Request& request) {
+    const std::string names = format_names() + ", gif";
+    if (!request.format.empty()) {
+        if (const auto format = format_named(request.format))
+            return *format;
+        throw CommandLineError(
+            fmt::format("--format does not know '{}'; it knows {}", request.format, names));
+    }
+    const fs::path output = request.output();
+    if (output == "-")
+        throw CommandLineError("a picture on standard output needs --format, as in --format png");
+    if (fs::is_directory(output))
+        throw CommandLineError(fmt::format(
+            "pictures in the folder '{}' need --format, as in --format png", request.output()));
+    if (CLI::detail::to_lower(output.extension().string()) == ".gif")
+        return {};
+    if (const auto format = format_from_extension(output))
+        return {format};
+    throw CommandLineError(fmt::format(
+        "cannot tell the format of '{}' by its name; {}give --format with one of {}",
+        request.output(),
+        similar_file(output, {".png", ".exr", ".jpg", ".jpeg", ".ppm", ".pfm", ".vra", ".gif"}),
+        names));
+}
+
+bool is_vra(const Format& format) {
+    return format.of_image == ImageFileFormat::vra8 || format.of_image == ImageFileFormat::vra16;
+}
+
+void check_output(const Request& request, const Format& format) {
+    if (request.error != 0 && !is_vra(format))
+        throw CommandLineError(
+            "--error is for VERA's compressed raster; write a .vra, or leave it out");
+    if (request.error != 0 && request.is_reduced())
+        throw CommandLineError(
+            "--error would change the colours that --colors and --palette choose; leave one out");
+    if (request.jpeg_quality != jpeg_quality_by_default && format.of_image != ImageFileFormat::jpeg)
+        throw CommandLineError("--quality is for JPEG; write a .jpg, or leave it out");
+    if (request.inputs().size() == 1 || format.is_gif() || fs::is_directory(request.output()))
+        return;
+    throw CommandLineError(fmt::format(
+        "{} pictures do not go into '{}'; name a folder that is there, or a .gif to show them in "
+        "turn",
+        request.inputs().size(),
+        request.output()));
+}
+
+/// That what reduces colours goes together, and into the format.
+void check_colors(const Request& request, const Format& format) {
+    if (request.colors != 0 && !request.palette.empty())
+        throw CommandLineError(
+            "--colors chooses colours and --palette names them; give one of them");
+    if (!request.is_reduced() && !format.is_gif() && (request.dither || request.palette_for_all))
+        throw CommandLineError(fmt::format(
+            "{} needs --colors N or --palette NAME",
+            request.dither ? "--dither" : "--palette-for-all"));
+    if (!request.is_reduced() || format.is_gif())
+        return;
+    if (format.of_image == ImageFileFormat::jpeg)
+        throw CommandLineError(
+            "JPEG does not keep the colours of a palette; write a .png or .gif instead");
+    if (sample_type(*format.of_image) != SampleType::integer8)
+        throw CommandLineError(
+            "colours of a palette have 8 bits; write png, gif, ppm or vra instead");
+}
+
+/// "320x240+10+20"; nothing where it is not so, or a number is larger than any picture's.
+std::optional<PixelRectangle> rectangle_from(std::string_view text) {
+    constexpr std::string_view separators = "x++";
+    constexpr std::size_t most = (std::size_t{1} << 31) - 1;
+    std::array<std::size_t, 4> numbers = {};
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        if (i > 0 && (text.empty() || text.front() != separators[i - 1]))
+            return std::nullopt;
+        text.remove_prefix(i > 0 ? 1 : 0);
+        const auto [end, error] =
+            std::from_chars(text.data(), text.data() + text.size(), numbers[i]);
+        if (error != std::errc() || numbers[i] > most)
+            return std::nullopt;
+        text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+    }
+    if (!text.empty() || numbers[0] == 0 || numbers[1] == 0)
+        return std::nullopt;
+    return PixelRectangle{numbers[2], numbers[3], numbers[0], numbers[1]};
+}
+
+PixelRectangle crop_rectangle(const std::string& text, std::size_t width, std::size_t height) {
+    const auto place = rectangle_from(text);
+    if (!place)
+        throw CommandLineError(fmt::format(
+            "--crop takes WIDTHxHEIGHT+X+Y in pixels, as in 320x240+10+20; found '{}'", text));
+    if (place->x + place->width > width || place->y + place->height > height)
+        throw CommandLineError(fmt::format(
+            "--crop {} is not within the picture, which has {} x {} pixels", text, width, height));
+    return *place;
+}
+
+/// A picture that was read: a compressed raster stays compressed for as long as it can.
+class Source {
+public:
+    Source(const Request& request, const std::string& path)
+        : bytes_(file_bytes(path)) {
+        const std::string name = path == "-" ? "standard input" : path;
+        const std::string_view text(reinterpret_cast<const char*>(bytes_.data()), bytes_.size());
+        if (text.starts_with("\x89VRA"))
+            raster_.emplace(bytes_, name);
+        else
+            image_ = decoded_image(bytes_, name);
+        if (!request.crop.empty())
+            cut(request.crop);
+        if (request.exposure != 0) {
+            expand();
+            image_ = converted_image(image_, sample_type(image_), exp2_of(request.exposure));
+        }
+    }
+
+    Source(Source&&) = default;
+    Source(const Source&) = delete;
+    Source& operator=(const Source&) = delete;
+    Source& operator=(Source&&) = delete;
+    ~Source() = default;
+
+    std::size_t width() const { return raster_ ? raster_->width() : image_.width; }
+
+    std::size_t height() const { return raster_ ? raster_->height() : image_.height; }
+
+    Image image(SampleType type) {
+        expand();
+        return converted_image(image_, type);
+    }
+
+    /// Makes floats bytes, for what colours of a palette are taken from.
+    void display() {
+        if (!raster_ && sample_type(image_) == SampleType::float32)
+            image_ = converted_image(image_, SampleType::integer8);
+    }
+
+    PictureRows rows() const { return raster_ ? PictureRows(*raster_) : PictureRows(image_); }
+
+    void add_to(ColorHistogram& histogram) const {
+        if (raster_) {
+            histogram.add(*raster_);
+            return;
+        }
+        PictureRows all = rows();
+        for (std::size_t y = 0; y < image_.height; ++y) {
+            const auto row = all.next();
+            for (std::size_t i = 0; i < row.size(); i += 3)
+                histogram.add({row[i], row[i + 1], row[i + 2]});
+        }
+    }
+
+private:
+    void cut(const std::string& crop) {
+        const PixelRectangle place = crop_rectangle(crop, width(), height());
+        image_ = raster_ ? raster_->part(place) : part_of(image_, place);
+        raster_.reset();
+    }
+
+    void expand() {
+        if (raster_)
+            image_ = raster_->part({0, 0, raster_->width(), raster_->height()});
+        raster_.reset();
+    }
+
+    std::vector<std::byte> bytes_;
+    std::optional<CompressedRaster> raster_;
+    Image image_;
+};
+
+/// What works on rows tells how far it is, and can be stopped.
+class RowProgress {
+public:
+    RowProgress(const Console& console, std::size_t rows)
+        : display_(console, "colours")
+        , progress_(display_.callback())
+        , cancel_(console.cancel)
+        , rows_(rows) {}
+
+    void row() {
+        cancel_.throw_if_raised();
+        if (progress_)
+            progress_(static_cast<double>(++done_) / static_cast<double>(rows_));
+    }
+
+private:
+    CancellableWork work_;
+    ProgressDisplay display_;
+    Progress progress_;
+    const CancelFlag& cancel_;
+    std::size_t rows_;
+    std::size_t done_ = 0;
+};
+
+Palette given_palette(const std::string& name) {
+    if (const auto palette = named_palette(name))
+        return *palette;
+    if (!fs::exists(name))
+        throw CommandLineError(fmt::format(
+            "--palette knows no '{}', and there is no such file; it knows {}",
+            name,
+            palette_names()));
+    const std::vector<std::byte> bytes = file_bytes(name);
+    return palette_from_text({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, name);
+}
+
+Palette chosen_palette(const Request& request, const std::vector<const Source*>& sources) {
+    if (!request.palette.empty())
+        return given_palette(request.palette);
+    ColorHistogram histogram;
+    for (const Source* source : sources)
+        source->add_to(histogram);
+    constexpr std::size_t most_colors = 256;
+    return optimal_palette(
+        histogram, request.colors == 0 ? most_colors : static_cast<std::size_t>(request.colors));
+}
+
+/// The picture in a palette's colours, as it is asked for; source and progress must outlive it.
+IndexedPicture reduced(
+    const Request& request, const Source& source, const Palette& palette, RowProgress& progress) {
+    const auto rows = std::make_shared<PictureRows>(source.rows());
+    const auto reducer = std::make_shared<ColorReducer>(
+        palette, request.dither.value_or(Dither::floyd_steinberg), source.width());
+    return {source.width(), source.height(), palette, [=, &progress](std::span<std::uint8_t> row) {
+                progress.row();
+                reducer->reduce(rows->next(), row);
+            }};
+}
+
+Image with_colors(const IndexedPicture& picture) {
+    Image image = blank_image(picture.width, picture.height, SampleType::integer8);
+    auto* sample = std::get<std::vector<std::uint8_t>>(image.samples).data();
+    std::vector<std::uint8_t> numbers(picture.width);
+    for (std::size_t y = 0; y < picture.height; ++y) {
+        picture.next_row(numbers);
+        for (const std::uint8_t number : numbers)
+            sample = std::copy_n(picture.palette[number].begin(), 3, sample);
+    }
+    return image;
+}
+
+ImageWriteSettings write_settings(const Request& request, const Format& format) {
+    const unsigned scale = format.of_image == ImageFileFormat::vra16 ? 257 : 1;
+    return {
+        .jpeg_quality = static_cast<int>(number_of("--quality", request.jpeg_quality, 1, 100)),
+        .raster_error = scale * whole_of("--error", request.error, 0, 127)};
+}
+
+PictureMetadata metadata() {
+    return {{"Software", fmt::format("vera {}", version)}};
+}
+
+void write_reduced(
+    const Request& request,
+    const Format& format,
+    const Source& source,
+    const Palette& palette,
+    OutputFile& file,
+    const Console& console) {
+    RowProgress progress(console, source.height());
+    const IndexedPicture picture = reduced(request, source, palette, progress);
+    if (format.is_gif())
+        write_gif({&picture, 1}, file);
+    else if (format.of_image == ImageFileFormat::png8)
+        write_indexed_png(picture, file, metadata());
+    else
+        write_image(
+            with_colors(picture),
+            file,
+            *format.of_image,
+            metadata(),
+            write_settings(request, format));
+}
+
+void write_one(
+    const Request& request,
+    const Format& format,
+    Source& source,
+    const fs::path& path,
+    const Palette* palette_of_all,
+    const Console& console) {
+    OutputFile file(path);
+    if (format.is_gif() || request.is_reduced()) {
+        source.display();
+        const Palette palette =
+            palette_of_all != nullptr ? *palette_of_all : chosen_palette(request, {&source});
+        write_reduced(request, format, source, palette, file, console);
+    } else {
+        write_image(
+            source.image(sample_type(*format.of_image)),
+            file,
+            *format.of_image,
+            metadata(),
+            write_settings(request, format));
+    }
+    file.commit();
+}
+
+std::vector<Source> sources_of(const Request& request) {
+    std::vector<Source> sources;
+    for (const std::string& path : request.inputs()) {
+        sources.emplace_back(request, path);
+        sources.back().display();
+    }
+    return sources;
+}
+
+std::vector<const Source*> pointers(const std::vector<Source>& sources) {
+    std::vector<const Source*> all;
+    for (const Source& source : sources)
+        all.push_back(&source);
+    return all;
+}
+
+void write_animation(const Request& request, const Console& console) {
+    const std::vector<Source> sources = sources_of(request);
+    for (std::size_t i = 1; i < sources.size(); ++i)
+        if (sources[i].width() != sources[0].width() || sources[i].height() != sources[0].height())
+            throw InputError({Diagnostic{
+                .place = {.file = request.inputs()[i]},
+                .problem = fmt::format(
+                    "it has {} x {} pixels, and '{}' has {} x {}",
+                    sources[i].width(),
+                    sources[i].height(),
+                    request.inputs()[0],
+                    sources[0].width(),
+                    sources[0].height()),
+                .remedy = "pictures of one GIF have one size; --crop can cut them to one"}});
+    OutputFile file(request.output());
+    const Palette palette = chosen_palette(request, pointers(sources));
+    RowProgress progress(console, sources.size() * sources[0].height());
+    std::vector<IndexedPicture> pictures;
+    for (const Source& source : sources)
+        pictures.push_back(reduced(request, source, palette, progress));
+    write_gif(pictures, file, whole_of("--delay", request.delay, 2, 65535));
+    file.commit();
+}
+
+void write_series(const Request& request, const Format& format, const Console& console) {
+    std::map<fs::path, std::string> outputs;
+    for (const std::string& input : request.inputs()) {
+        fs::path output = fs::path(request.output()) / fs::path(input).stem();
+        std::string extension = CLI::detail::to_lower(request.format);
+        // png16 and the like are .png.
+        extension.erase(std::min(extension.find_first_of("0123456789-"), extension.size()));
+        output += "." + extension;
+        if (const auto [other, is_new] = outputs.emplace(output, input); !is_new)
+            throw CommandLineError(fmt::format(
+                "'{}' and '{}' would both become '{}'; convert one of them alone",
+                other->second,
+                input,
+                output.string()));
+        if (fs::exists(output) && fs::equivalent(output, input))
+            throw CommandLineError(
+                fmt::format("'{}' would be written over itself; choose another folder", input));
+    }
+    std::optional<Palette> palette;
+    if (request.palette_for_all)
+        palette = chosen_palette(request, pointers(sources_of(request)));
+    for (const auto& [output, input] : outputs) {
+        Source source(request, input);
+        write_one(request, format, source, output, palette ? &*palette : nullptr, console);
+    }
+}
+
+void convert(const Request& request, const Console& console) {
+    if (request.paths.size() < 2)
+        throw CommandLineError(
+            "convert takes the picture to read and the one to write, as in a.exr b.png");
+    const Format format = output_format(request);
+    if (request.colors != 0)
+        whole_of("--colors", request.colors, 2, 256);
+    number_of("--exposure", request.exposure, -20, 20);
+    write_settings(request, format);
+    check_output(request, format);
+    check_colors(request, format);
+    const ThreadLimit limit(whole_of("--threads", request.threads, 0, 1024));
+    if (fs::is_directory(request.output())) {
+        write_series(request, format, console);
+    } else if (request.inputs().size() > 1) {
+        write_animation(request, console);
+    } else {
+        Source source(request, request.inputs()[0]);
+        write_one(request, format, source, request.output(), nullptr, console);
+    }
+}
+
+} // namespace
+
+/// vera convert IN... OUT
+void add_convert_command(CLI::App& app, Console& console) {
+    const auto request = std::make_shared<Request>();
+    const std::map<std::string, Dither> dithers = {
+        {"none", Dither::none},
+        {"floyd-steinberg", Dither::floyd_steinberg},
+        {"blue-noise", Dither::blue_noise}};
+
+    CLI::App* command =
+        app.add_subcommand("convert", "a picture in another format, or in fewer colours");
+    command
+        ->add_option(
+            "pictures",
+            request->paths,
+            "to read, and at the end the one to write, or a folder for several")
+        ->required()
+        ->type_name("IN... OUT");
+    command
+        ->add_option(
+            "--format",
+            request->format,
+            "to write, where the name does not tell: " + format_names() + ", gif")
+        ->type_name("NAME");
+    command
+        ->add_option(
+            "--crop", request->crop, "this part alone, in pixels from the upper left corner")
+        ->type_name("WxH+X+Y");
+    command
+        ->add_option(
+            "--exposure", request->exposure, "stops: each doubles the light, or halves it below 0")
+        ->type_name("STOPS")
+        ->capture_default_str();
+    command
+        ->add_option(
+            "--error",
+            request->error,
+            "of .vra: no sample changes by more than this of 255; 0 loses nothing")
+        ->type_name("N")
+        ->capture_default_str();
+    command->add_option("--quality", request->jpeg_quality, "of a JPEG picture, 1 to 100")
+        ->type_name("Q")
+        ->capture_default_str();
+    const char* const group = "Colours";
+    command->add_option("--colors", request->colors, "the best so many, 2 to 256; 256 for GIF")
+        ->type_name("N")
+        ->group(group);
+    command
+        ->add_option(
+            "--palette",
+            request->palette,
+            palette_names() + ", or a text file of #rrggbb, one a line")
+        ->type_name("NAME|FILE")
+        ->group(group);
+    command
+        ->add_option(
+            "--dither", request->dither, "how to mix colours; floyd-steinberg when left out")
+        ->transform(CLI::CheckedTransformer(dithers).description(""))
+        ->type_name("none|floyd-steinberg|blue-noise")
+        ->group(group);
+    command
+        ->add_flag(
+            "--palette-for-all", request->palette_for_all, "several pictures share their colours")
+        ->group(group);
+    command
+        ->add_option(
+            "--delay", request->delay, "hundredths of a second a picture, in a GIF of several")
+        ->type_name("N")
+        ->capture_default_str()
+        ->group(group);
+    command->add_option("--threads", request->threads, "0: one for each processor")
+        ->type_name("N")
+        ->capture_default_str();
+    add_console_options(*command, console);
+    command->footer("Examples:\n"
+                    "  vera convert picture.exr picture.png --exposure 0.5\n"
+                    "  vera convert picture.png picture.vra --error 1\n"
+                    "  vera convert picture.vra part.png --crop 320x240+10+20\n"
+                    "  vera convert picture.png small.png --colors 16 --dither blue-noise\n"
+                    "  vera convert picture.png old.gif --palette ega16\n"
+                    "  vera convert 1.png 2.png 3.png film.gif --colors 64 --delay 4\n"
+                    "  vera convert 1.png 2.png out --format png --colors 32 --palette-for-all");
+
+    command->callback([request, &console] { convert(*request, console); });
+}
+
+} // namespace vera
