@@ -8,7 +8,7 @@
 namespace vera {
 
 /// The keywords of control files.
-constexpr std::array<std::string_view, 14> control_words = {
+constexpr std::array<std::string_view, 15> control_words = {
     "RASTER",
     "RTDEPTH",
     "EXPMES",
