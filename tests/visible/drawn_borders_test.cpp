@@ -373,10 +373,14 @@ std::vector<NamedScene> degenerate_scenes() {
 }
 
 TEST(DrawnBorders, AreSoundInDegenerateScenes) {
-    for (const NamedScene& named : degenerate_scenes())
+    for (const NamedScene& named : degenerate_scenes()) {
+        // Has as many facets as there may be, whatever the deviation: once is enough.
+        const bool is_costly = named.name == "a ball that reaches to the viewer";
         for (const FaceUnit unit : {FaceUnit::plane, FaceUnit::smooth})
             for (const double deviation :
                  unit == FaceUnit::plane ? std::vector{0.3, 2.0} : std::vector{0.1, 0.5, 2.0}) {
+                if (is_costly && (unit == FaceUnit::plane || deviation != 0.5))
+                    continue;
                 const DrawnMap drawn = drawn_map(named.scene, named.camera, unit, deviation);
                 expect_sound(
                     named.scene,
@@ -387,6 +391,7 @@ TEST(DrawnBorders, AreSoundInDegenerateScenes) {
                 if (HasFailure())
                     return;
             }
+    }
 }
 
 Scene random_scene(std::mt19937_64& random, const Camera& camera, bool with_shapes) {

@@ -79,11 +79,19 @@ RationalPoint moved(RationalPoint point, const Motion& motion) {
 }
 
 /// The scene with other vertices, and without what has no area with them.
-ScreenScene rebuilt(const ScreenScene& scene, std::vector<ScreenVertex> vertices) {
+ScreenScene
+rebuilt(const ScreenScene& scene, std::vector<ScreenVertex> vertices, bool turns_sides = false) {
     ScreenScene result;
     result.vertices = std::move(vertices);
-    for (const ScreenTriangle& triangle : scene.triangles)
-        add_triangle(result, triangle.vertices, triangle.source);
+    result.unlit = scene.unlit;
+    for (ScreenTriangle triangle : scene.triangles) {
+        if (turns_sides)
+            std::swap(triangle.plane[1], triangle.plane[2]);
+        if (triangle.is_shadow())
+            add_part(result, triangle.vertices, triangle, triangle.light);
+        else
+            add_triangle(result, triangle.vertices, triangle.source);
+    }
     return result;
 }
 
@@ -91,7 +99,7 @@ ScreenScene moved(const ScreenScene& scene, const Motion& motion) {
     std::vector<ScreenVertex> vertices = scene.vertices;
     for (ScreenVertex& vertex : vertices)
         vertex.point = moved(vertex.point, motion);
-    return rebuilt(scene, std::move(vertices));
+    return rebuilt(scene, std::move(vertices), motion.turns_sides());
 }
 
 /// In the quarter of the picture at its origin: it can be shifted by half the picture.
@@ -105,13 +113,14 @@ ScreenScene halved(const ScreenScene& scene) {
 /// A ring without what it happens to begin with.
 struct Outline {
     std::uint32_t source = 0;
+    LightSet unlit = 0;
     std::vector<RationalPoint> points;
 
     friend bool operator==(const Outline&, const Outline&) = default;
 
     friend bool operator<(const Outline& a, const Outline& b) {
-        if (a.source != b.source)
-            return a.source < b.source;
+        if (a.source != b.source || a.unlit != b.unlit)
+            return std::pair(a.source, a.unlit) < std::pair(b.source, b.unlit);
         return std::lexicographical_compare(
             a.points.begin(),
             a.points.end(),
@@ -126,7 +135,7 @@ void begin_with_first(std::vector<RationalPoint>& points) {
     std::vector<RationalPoint> best = points;
     for (std::size_t i = 1; i < points.size(); ++i) {
         std::rotate(points.begin(), points.begin() + 1, points.end());
-        if (Outline{0, points} < Outline{0, best})
+        if (Outline{0, 0, points} < Outline{0, 0, best})
             best = points;
     }
     points = std::move(best);
@@ -159,6 +168,7 @@ Seen seen(const ScreenScene& scene, Engine engine) {
     for (const VisibleMap::Ring& ring : map.rings) {
         Outline& outline = result.outlines.emplace_back();
         outline.source = ring.source;
+        outline.unlit = map.regions[ring.region].unlit;
         for (const std::uint32_t vertex : map.vertices_of(ring))
             outline.points.push_back(map.vertices[vertex]);
         begin_with_first(outline.points);
@@ -303,14 +313,19 @@ ScreenScene shuffled(const ScreenScene& scene, std::mt19937_64& random) {
     std::shuffle(triangles.begin(), triangles.end(), random);
     ScreenScene result;
     result.vertices.resize(scene.vertices.size());
+    result.unlit = scene.unlit;
     for (std::size_t i = 0; i < number.size(); ++i)
         result.vertices[number[i]] = scene.vertices[i];
-    for (const ScreenTriangle& triangle : triangles) {
-        std::array<std::uint32_t, 3> corners;
-        for (std::size_t i = 0; i < 3; ++i)
-            corners[i] = number[triangle.vertices[i]];
-        std::shuffle(corners.begin(), corners.end(), random);
-        add_triangle(result, corners, triangle.source);
+    for (ScreenTriangle& triangle : triangles) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            triangle.vertices[i] = number[triangle.vertices[i]];
+            triangle.plane[i] = number[triangle.plane[i]];
+        }
+        std::shuffle(triangle.vertices.begin(), triangle.vertices.end(), random);
+        if (triangle.is_shadow())
+            add_part(result, triangle.vertices, triangle, triangle.light);
+        else
+            add_triangle(result, triangle.vertices, triangle.source);
     }
     return result;
 }
@@ -326,6 +341,49 @@ TEST(Invariance, TheSameIsSeenInWhateverOrderTrianglesAndTheirCornersCome) {
                 expect_same(expected, seen(other, engine), what + ", " + name);
         }
     });
+}
+
+/// The scene with shadows of three lights on some of its triangles, with corners among those of
+/// all: they reach beyond their faces, lie on each other and end at borders. And some of the faces
+/// get nothing of a light.
+ScreenScene shadowed(ScreenScene scene, std::mt19937_64& random) {
+    const std::size_t surfaces = scene.triangles.size();
+    const std::size_t vertices = scene.vertices.size();
+    std::uint32_t most = 0;
+    for (std::size_t i = 0; i < surfaces; ++i)
+        most = std::max(most, scene.triangles[i].source);
+    scene.unlit.resize(most + 1);
+    for (std::size_t i = 0; i < surfaces; ++i) {
+        const ScreenTriangle on = scene.triangles[i];
+        if (random() % 8 == 0)
+            scene.unlit[on.source] = LightSet{1} << random() % 3;
+        for (std::uint64_t count = random() % 4; count > 0; --count) {
+            std::array<std::uint32_t, 3> corners;
+            for (std::uint32_t& corner : corners)
+                corner = random() % 2 == 0 ? on.vertices[random() % 3]
+                                           : static_cast<std::uint32_t>(random() % vertices);
+            add_part(scene, corners, on, static_cast<std::uint32_t>(random() % 3));
+        }
+    }
+    return scene;
+}
+
+TEST(Invariance, TheSameShadowsAreSeenHoweverTheSceneLiesAndInWhateverOrder) {
+    std::size_t unlit = 0;
+    for_all([&](const ScreenScene& whole, std::uint64_t seed, const std::string& what) {
+        std::mt19937_64 random(seed);
+        const ScreenScene scene = shadowed(whole, random);
+        const Seen expected = seen(scene, by_cells);
+        for (const Outline& outline : expected.outlines)
+            unlit += outline.unlit != 0 ? 1 : 0;
+        for (const Motion& motion : motions)
+            expect_same(
+                moved(expected, motion),
+                seen(moved(scene, motion), by_cells),
+                what + ", " + motion.name);
+        expect_same(expected, seen(shuffled(scene, random), by_cells), what + ", shuffled");
+    });
+    EXPECT_GT(unlit, 2500U);
 }
 
 /// Every triangle in parts, which have its plane: round a point in it, or on both sides of the

@@ -3,6 +3,7 @@
 #include "vera/exact/front_order.h"
 #include "vera/scene/surface.h"
 #include "vera/visible/closed_bodies.h"
+#include "vera/visible/map_locator.h"
 #include "vera/visible/penetrations.h"
 #include "vera/visible/shadows.h"
 #include "vera/visible/visible_map.h"
@@ -52,15 +53,16 @@ DrawnShadows drawn_shadows(const Scene& scene, const Camera& camera) {
 }
 
 /// Plane faces, and lights none of which lies in the plane of one, where rays may see either side.
-Scene scene_of_planes(std::uint64_t seed) {
+Scene scene_of_planes(std::uint64_t seed, double scale = 1) {
     testing::RandomSceneSettings settings;
     settings.items = 4 + seed % 4 * 5;
     settings.curved = false;
+    settings.scale = scale;
     Scene scene = testing::random_scene(seed, settings);
     scene.lights = {
-        {.position = {5.1, 3.2, 9.3}},
-        {.position = {0.31, -0.213, 0.737}},
-        {.position = {-4.07, -4.11, 2.03}}};
+        {.position = scale * Vec3{5.1, 3.2, 9.3}},
+        {.position = scale * Vec3{0.31, -0.213, 0.737}},
+        {.position = scale * Vec3{-4.07, -4.11, 2.03}}};
     return scene;
 }
 
@@ -155,6 +157,69 @@ TEST(Shadows, AreWhereRaysTowardsLightsMeetSomething) {
         compared += compare_shadows(
             scene_of_planes(seed), testing::camera_number(static_cast<int>(seed)), seed, 1e-5);
     EXPECT_GT(compared, 400);
+}
+
+TEST(Shadows, AreTheSameToTheBitInAnyPowerOfTwoOfTheSize) {
+    std::size_t shadows = 0;
+    for (std::uint64_t seed = 0; seed < 8; ++seed)
+        for (const double scale : {0.125, 64.0}) {
+            const Camera camera = testing::camera_number(static_cast<int>(seed));
+            Camera other = camera;
+            for (Vec3* of :
+                 {&other.viewpoint, &other.lower_left, &other.lower_right, &other.upper_left})
+                *of = scale * *of;
+            const DrawnShadows expected = drawn_shadows(scene_of_planes(seed), camera);
+            const DrawnShadows found = drawn_shadows(scene_of_planes(seed, scale), other);
+            EXPECT_EQ(expected.counts.shadows, found.counts.shadows) << seed;
+            EXPECT_TRUE(expected.map.vertices == found.map.vertices) << seed;
+            EXPECT_TRUE(expected.map.regions == found.map.regions) << seed;
+            EXPECT_EQ(expected.map.ring_vertices, found.map.ring_vertices) << seed;
+            EXPECT_EQ(expected.map.ring_across, found.map.ring_across) << seed;
+            shadows += expected.counts.shadows;
+        }
+    EXPECT_GT(shadows, 1000U);
+}
+
+/// What the map shows at a place, or nothing where it is not one region.
+std::optional<VisibleMap::Region> region_at(const VisibleMap& map, double x, double y) {
+    const auto turns = testing::turns_about(map, x, y);
+    if (turns.size() != 1)
+        return std::nullopt;
+    return map.regions[turns.begin()->first];
+}
+
+TEST(Shadows, AreTheSameWhenThePictureIsMirroredOrTurnedButForAFewSteps) {
+    // Coordinates of corners are rounded to the grid, which is a matter of where they lie.
+    constexpr double reach = 8; // steps
+    int compared = 0;
+    for (std::uint64_t seed = 0; seed < 8; ++seed) {
+        const Scene scene = scene_of_planes(seed);
+        const Camera camera = testing::camera_number(static_cast<int>(seed));
+        const Vec3 across = camera.lower_right - camera.lower_left;
+        Camera mirrored = camera;
+        mirrored.lower_left = camera.lower_right;
+        mirrored.lower_right = camera.lower_left;
+        mirrored.upper_left = camera.upper_left + across;
+        Camera turned = mirrored; // a quarter
+        turned.lower_right = mirrored.upper_left;
+        turned.upper_left = mirrored.lower_right;
+        const DrawnShadows expected = drawn_shadows(scene, camera);
+        const DrawnShadows of_mirrored = drawn_shadows(scene, mirrored);
+        const DrawnShadows of_turned = drawn_shadows(scene, turned);
+        const MapLocator locator(expected.map);
+        std::mt19937_64 random(seed);
+        for (int i = 0; i < 300; ++i) {
+            const double x = std::uniform_real_distribution(0.0, double{screen_size})(random);
+            const double y = std::uniform_real_distribution(0.0, double{screen_size})(random);
+            const auto here = region_at(expected.map, x, y);
+            if (locator.has_side_near(x, y, reach, reach) || !here)
+                continue;
+            ++compared;
+            EXPECT_EQ(region_at(of_mirrored.map, screen_size - x, y), here) << seed;
+            EXPECT_EQ(region_at(of_turned.map, screen_size - y, x), here) << seed;
+        }
+    }
+    EXPECT_GT(compared, 1000);
 }
 
 /// The area of the picture, as a part of it, where the light does not reach the face.

@@ -4,24 +4,16 @@
 #include "vera/scene/surface.h"
 #include "vera/shade/firmament.h"
 #include "vera/shade/lighting.h"
+#include "vera/visible/drawn_color.h"
 #include "vera/visible/tones.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
 namespace vera {
 
 namespace {
-
-DrawingColor as_drawn(Color color) {
-    const Color shown = clamped(color);
-    const auto byte = [](double value) {
-        return static_cast<std::uint8_t>(std::floor(255 * value + 0.5));
-    };
-    return {byte(shown.r), byte(shown.g), byte(shown.b)};
-}
 
 DrawingColor color_of_number(std::uint64_t number) {
     const auto byte = [&](unsigned shift) {
@@ -73,7 +65,7 @@ DrawingColor region_color(const FillSources& sources, std::span<const VisibleMap
             return doubled_area(sources.map, a) < doubled_area(sources.map, b);
         });
     const Color light = light_of_face(sources, face, *largest);
-    return as_drawn(
+    return drawn_color(
         sources.style == DrawingStyle::toon
             ? toned(light, material_of(sources.scene, facet.material))
             : light);
@@ -85,7 +77,7 @@ std::optional<DrawingColor> background_color(const FillSources& sources) {
         return color_of_number(0);
     case DrawingStyle::flat:
     case DrawingStyle::toon:
-        return as_drawn(firmament_color(
+        return drawn_color(firmament_color(
             sources.picture.firmament, view_ray(sources.camera, 0.5, 0.5).direction));
     case DrawingStyle::shaded: // painted with its outlines
     case DrawingStyle::lines:

@@ -3,26 +3,18 @@
 
 #include "vera/base/check.h"
 #include "vera/drawing/gradient.h"
+#include "vera/visible/drawn_color.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <utility>
 #include <vector>
 
 namespace vera {
 
 namespace {
-
-DrawingColor as_bytes(Color color) {
-    const Color shown = clamped(color);
-    const auto byte = [](double value) {
-        return static_cast<std::uint8_t>(std::floor(255 * value + 0.5));
-    };
-    return {byte(shown.r), byte(shown.g), byte(shown.b)};
-}
 
 double largest_difference(Color a, Color b) {
     return std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)});
@@ -58,7 +50,7 @@ public:
         std::vector<GradientStop> stops(knots_.size());
         const std::vector<Color> values = values_at_knots();
         for (std::size_t i = 0; i < stops.size(); ++i)
-            stops[i] = {knots_[i], as_bytes(values[i])};
+            stops[i] = {knots_[i], drawn_color(values[i])};
         return stops;
     }
 
@@ -372,7 +364,7 @@ FittedPaint flat_fit(std::span<const ColorSample> samples) {
         most = max(most, sample.color);
     }
     FittedPaint paint;
-    paint.color = as_bytes(0.5 * (least + most));
+    paint.color = drawn_color(0.5 * (least + most));
     const Color shown = {paint.color.r / 255.0, paint.color.g / 255.0, paint.color.b / 255.0};
     for (const ColorSample& sample : samples)
         paint.error = std::max(paint.error, error_of(sample, shown));
