@@ -56,9 +56,9 @@ struct FirmamentWords {
 /// Reads keyword after keyword.
 class ControlReader {
 public:
-    ControlReader(const SourceText& text, const PictureSettings& defaults)
+    ControlReader(const SourceText& text, PictureSettings defaults)
         : words_(text, complaints_)
-        , settings_(defaults) {
+        , settings_(std::move(defaults)) {
         settings_.shadows = false;
         settings_.antialiasing.on = false;
     }
