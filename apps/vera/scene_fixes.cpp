@@ -96,10 +96,13 @@ private:
         const Item& item = geometry.items[number];
         if (item.file != 0)
             return no_statement;
-        const auto [first, last] =
-            std::ranges::equal_range(statements_, item.line, {}, &StatementWords::line);
+        const auto first = std::lower_bound(
+            statements_.begin(),
+            statements_.end(),
+            item.line,
+            [](const StatementWords& words, std::uint64_t line) { return words.line < line; });
         std::vector<std::size_t> able;
-        for (auto at = first; at != last; ++at)
+        for (auto at = first; at != statements_.end() && at->line == item.line; ++at)
             if (makes(at->statement, item.kind))
                 able.push_back(static_cast<std::size_t>(at - statements_.begin()));
         if (able.size() == 1)

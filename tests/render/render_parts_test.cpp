@@ -117,6 +117,49 @@ TEST(RenderParts, AveragesLimitedColoursByAreaWithAntialiasingAlone) {
     EXPECT_EQ(sample(halves, 1), std::floor(0.125 * 65535 + 0.5));
 }
 
+TEST(RenderParts, SoftenTheHorizonAsRaysDo) {
+    SceneMaker maker;
+    maker.sphere({0, 0, 100}, 1); // behind the viewer
+    Camera camera;
+    camera.lower_left = {-1, -0.5, -2};
+    camera.lower_right = {1, -0.5, -2};
+    camera.upper_left = {-1, 0.55, -2};
+    maker.scene.camera = camera;
+    const auto index = make_brute_force(maker.finish());
+    PictureSettings settings = plain_settings(60, 31);
+    const std::vector<PixelPart> parts = [] {
+        std::vector<PixelPart> all;
+        for (std::uint32_t i = 0; i < 60 * 31; ++i)
+            all.push_back({i % 60, i / 60});
+        return all;
+    }();
+    const auto red = [&](const RenderResult& result, std::size_t pixel) {
+        return std::get<std::vector<std::uint16_t>>(result.image.samples)[3 * pixel] / 65535.0;
+    };
+    for (const auto& profile :
+         {std::optional<HorizonProfile>(), std::optional(HorizonProfile(Mountains{5, 9, 0.3}))}) {
+        settings.firmament = Firmament{{1, 1, 1}, {1, 1, 1}, {0, 0, 0}, profile};
+        settings.antialiasing.on = true;
+        const RenderResult found = render_parts(
+            maker.scene, camera, *index, {{}, by_bands(parts)}, settings, SampleType::integer16);
+        const RenderResult rays =
+            render_scene(maker.scene, camera, *index, settings, SampleType::integer16);
+        std::size_t between = 0;
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            // Where a fourth of the rays agree, rays end: less than an eighth of the pixel is
+            // missed.
+            ASSERT_NEAR(red(found, i), red(rays, i), 0.13) << i;
+            between += red(found, i) > 0 && red(found, i) < 1 ? 1 : 0;
+        }
+        EXPECT_GE(between, 55U);
+        settings.antialiasing.on = false;
+        const RenderResult sharp = render_parts(
+            maker.scene, camera, *index, {{}, by_bands(parts)}, settings, SampleType::integer16);
+        for (std::size_t i = 0; i < parts.size(); ++i)
+            ASSERT_TRUE(red(sharp, i) == 0 || red(sharp, i) == 1) << i;
+    }
+}
+
 TEST(RenderParts, LightsAFacetThatSticksOutOfItsSurfaceAsTheSurfaceBesideIt) {
     // The ray through the middle of the pixel passes the sphere; its facet is said to be seen.
     SceneMaker maker;

@@ -32,7 +32,7 @@ struct Change {
 };
 
 /// The change without the lines at both ends that stay: those that are shown around it are counted.
-Change trimmed(std::span<const std::string_view> lines, Change change) {
+Change trimmed(std::span<const std::string_view> lines, const Change& change) {
     const auto after = lines_of(change.text);
     std::size_t begin = 0;
     const std::size_t most = std::min(after.size(), change.last - change.first);

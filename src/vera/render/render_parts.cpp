@@ -5,7 +5,9 @@
 #include "vera/image/develop.h"
 #include "vera/render/generations.h"
 #include "vera/render/raster.h"
+#include "vera/render/sample_positions.h"
 #include "vera/render/workspaces.h"
+#include "vera/shade/firmament.h"
 
 #include <algorithm>
 #include <array>
@@ -77,6 +79,34 @@ void find_hits(const Scene& scene, const Facets& facets, const Raster& raster, B
     work.tracer.surfaces(work.rays, work.hits, work.surfaces);
 }
 
+/// Gives the background of a pixel that shows sky and earth the mean of what is seen in the pixel.
+void soften_horizon(const TracedScene& traced, const Raster& raster, BandWork& work) {
+    constexpr std::uint32_t samples = 16;
+    const auto& firmament = traced.firmament;
+    if (!firmament)
+        return;
+    const auto direction = [&](const PixelPart& part, SamplePosition position) {
+        return raster.ray(part.x, part.y, position).ray.direction;
+    };
+    for (std::size_t i = 0; i < work.parts.size(); ++i) {
+        const PixelPart& part = work.parts[i];
+        if (part.source != PixelPart::background)
+            continue;
+        const bool own = is_earth(*firmament, work.rays[i].ray.direction);
+        const auto differs = [&](double across, double down) {
+            return is_earth(*firmament, direction(part, {across, down})) != own;
+        };
+        if (!differs(0, 0) && !differs(1, 0) && !differs(0, 1) && !differs(1, 1))
+            continue;
+        Color sum;
+        const std::uint64_t pixel = std::uint64_t{part.y} * raster.width + part.x;
+        for (std::uint32_t sample = 0; sample < samples; ++sample)
+            sum +=
+                clamped(firmament_color(firmament, direction(part, net_position(pixel, sample))));
+        work.colors[i] = (1.0 / samples) * sum;
+    }
+}
+
 /// Averages the parts of each pixel.
 void develop_parts(const PictureSettings& settings, BandWork& work, Image& image) {
     for (std::size_t i = 0; i < work.parts.size();) {
@@ -121,6 +151,8 @@ RenderResult render_parts(
                 seen.of_band(band, work.parts);
                 find_hits(scene, seen.facets, raster, work);
                 work.tracer.shade(work.rays, work.hits, work.surfaces, work.colors);
+                if (settings.antialiasing.on)
+                    soften_horizon(traced, raster, work);
                 work.tracer.statistics.parts += work.parts.size();
                 develop_parts(settings, work, result.image);
                 done.add(1);

@@ -26,8 +26,9 @@ struct PictureParts {
 /// from mirrors and glass and to the lights, is that of render_scene(), once for each part, in its
 /// middle; but no view rays are asked. Where the middle of a part lies on the primitive itself, and
 /// not on its facet alone, it is lit as a ray through it is, to the bit. Settings as in
-/// render_scene(), but with anti-aliasing colours are averaged by the areas of the parts. Throws
-/// Cancelled soon after the flag is raised.
+/// render_scene(), but with anti-aliasing colours are averaged by the areas of the parts, and
+/// background that shows sky and earth is the mean of both in its pixel. Throws Cancelled soon
+/// after the flag is raised.
 RenderResult render_parts(
     const Scene& scene,
     const Camera& camera,

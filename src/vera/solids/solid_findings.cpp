@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/solids/solid_findings.h"
 
+#include "vera/base/long_loop.h"
 #include "vera/base/progress_part.h"
+#include "vera/base/random.h"
 #include "vera/solids/box_pairs.h"
 #include "vera/solids/shells.h"
 #include "vera/solids/solid_faces.h"
@@ -36,8 +38,10 @@ public:
         , findings_(findings) {}
 
     void check(const Progress& progress, const CancelFlag* cancel) {
+        stop_if_raised(cancel);
         find_duplicates();
         find_curved_duplicates();
+        stop_if_raised(cancel);
         for (const Shell& shell : shells(faces_))
             check_shell(shell);
         find_pairs(progress, cancel);
@@ -138,22 +142,39 @@ private:
 };
 
 void GeometryCheck::find_duplicates() {
-    std::map<Loop, std::uint32_t> first_with;
-    std::map<std::uint32_t, std::size_t> twice_in_mesh;
+    // Few faces stand twice: they are compared where their hashes are the same.
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> by_hash;
+    by_hash.reserve(faces_.faces.size());
     for (std::uint32_t i = 0; i < faces_.faces.size(); ++i) {
-        const auto [at, is_new] = first_with.emplace(loop_of(i), i);
-        if (is_new)
-            continue;
-        const std::uint32_t item = faces_.faces[i].item;
-        if (is_mesh(i))
+        std::uint64_t hash = 0;
+        for (const std::uint32_t point : loop_of(i))
+            hash = scrambled_bits(hash + point + 1);
+        by_hash.emplace_back(hash, i);
+    }
+    std::sort(by_hash.begin(), by_hash.end());
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> same; // the later one first
+    for (std::size_t i = 1; i < by_hash.size(); ++i) {
+        const Loop loop = loop_of(by_hash[i].second);
+        std::size_t first = i;
+        for (std::size_t k = i; k-- > 0 && by_hash[k].first == by_hash[i].first;)
+            if (loop_of(by_hash[k].second) == loop)
+                first = k;
+        if (first < i)
+            same.emplace_back(by_hash[i].second, by_hash[first].second);
+    }
+    std::sort(same.begin(), same.end());
+    std::map<std::uint32_t, std::size_t> twice_in_mesh;
+    for (const auto& [face, first] : same) {
+        const std::uint32_t item = faces_.faces[face].item;
+        if (is_mesh(face))
             ++twice_in_mesh[item];
         else
             add_duplicate(
                 item,
-                faces_.faces[at->second].item,
+                faces_.faces[first].item,
                 "face",
-                is_outside_behind_loop(i) == is_outside_behind_loop(at->second) ? Severity::warning
-                                                                                : Severity::note);
+                is_outside_behind_loop(face) == is_outside_behind_loop(first) ? Severity::warning
+                                                                              : Severity::note);
     }
     for (const auto& [item, count] : twice_in_mesh) {
         SolidFinding& finding = add(Kind::duplicate, Severity::note, item);
