@@ -85,7 +85,7 @@ std::string usage_problem(const CLI::App& app, const CLI::ParseError& error) {
     if (extra_or_missing && !unread.empty())
         return with_help_hint(app, unknown_word(command_in_use(app), unread.front()));
     if (&command_in_use(app) == &app && dynamic_cast<const CLI::RequiredError*>(&error) != nullptr)
-        return with_help_hint(app, "say what to do: render, draw, check, info or explain");
+        return with_help_hint(app, "say what to do: render, draw, check, info, explain or solve");
     if (const auto choice = wrong_choice(command_in_use(app), error.what()))
         return with_help_hint(app, *choice);
     std::string problem = error.what();

@@ -17,7 +17,12 @@ TEST(Program, TellsItsVersion) {
 TEST(Program, HelpsOnItselfAndEveryCommandWithExamples) {
     const ScratchFolder folder;
     for (const char* arguments :
-         {"--help", "render --help", "check --help", "info --help", "explain --help"}) {
+         {"--help",
+          "render --help",
+          "check --help",
+          "info --help",
+          "explain --help",
+          "solve --help"}) {
         const ProgramRun run = run_vera(folder, arguments);
         EXPECT_EQ(run.exit_code, 0) << arguments;
         EXPECT_NE(run.out.find("Examples:"), std::string::npos) << arguments;
@@ -32,7 +37,7 @@ TEST(Program, SaysWhatIsWrongWithACommandLine) {
         const char* arguments;
         const char* problem;
     } wrong[] = {
-        {"", "vera: error: say what to do: render, draw, check, info or explain"},
+        {"", "vera: error: say what to do: render, draw, check, info, explain or solve"},
         {"rendr a.vera", "vera: error: unknown command 'rendr'; did you mean 'render'?"},
         {"render a.vera -o a.png --rastr 5x5",
          "unknown option '--rastr'; did you mean '--raster'?"},
