@@ -176,7 +176,7 @@ std::vector<double> factors_for_exposure(const LayerSources& layers, double expo
         }
     const std::optional<double> factor = exposure_factor(samples, exposure);
     if (factor) {
-        const std::vector<double> all(layers.light_count() + 1, *factor);
+        std::vector<double> all(layers.light_count() + 1, *factor);
         return all;
     }
     Diagnostic wrong;

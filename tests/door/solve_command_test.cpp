@@ -53,7 +53,8 @@ double mean(const std::vector<unsigned char>& picture, int x, int y, int width, 
     double sum = 0;
     for (int row = y; row < y + height; ++row)
         for (int sample = 3 * x; sample < 3 * (x + width); ++sample)
-            sum += picture[static_cast<std::size_t>(3 * 48 * row + sample)];
+            sum +=
+                picture[3 * 48 * static_cast<std::size_t>(row) + static_cast<std::size_t>(sample)];
     return sum / 255 / (3.0 * width * height);
 }
 
