@@ -89,7 +89,7 @@ TEST(ExplainCommand, TellsWhoShadowsAndFiltersALight) {
 /// rays above, to the bit: nothing is left out, nothing rounded.
 void expect_exact_sums(const nlohmann::json& json) {
     for (const auto& ray : json["rays"])
-        for (int channel = 0; channel < 3; ++channel) {
+        for (std::size_t channel = 0; channel < 3; ++channel) {
             double sum = ray["terms"][0]["value"][channel];
             for (std::size_t i = 1; i < ray["terms"].size(); ++i) {
                 sum += ray["terms"][i]["value"][channel].get<double>();
@@ -107,7 +107,7 @@ void expect_exact_sums(const nlohmann::json& json) {
             ASSERT_EQ(diffuse, ray["terms"][1]["value"][channel]);
             ASSERT_EQ(highlight, ray["terms"][2]["value"][channel]);
         }
-    for (int channel = 0; channel < 3; ++channel) {
+    for (std::size_t channel = 0; channel < 3; ++channel) {
         float sum = 0;
         for (const auto& layer : json["layers"]) {
             sum += layer["value"][channel].get<float>();
@@ -125,17 +125,16 @@ TEST(ExplainCommand, AddsUpToThePicturesByteExactly) {
     ASSERT_EQ(run_vera(folder, "render a.vera -o a.ppm --antialias off" + options).exit_code, 0);
     const std::string picture = folder.read("a.ppm");
     const std::size_t header = picture.size() - std::size_t{3} * 32 * 32;
-    for (int i = 0; i < 24; ++i) {
-        const int x = i * 11 % 32;
-        const int y = i * 5 % 32;
+    for (std::size_t i = 0; i < 24; ++i) {
+        const std::size_t x = i * 11 % 32;
+        const std::size_t y = i * 5 % 32;
         const auto json = nlohmann::json::parse(
             explained(folder, std::to_string(x) + ' ' + std::to_string(y) + options + " --json"));
         expect_exact_sums(json);
-        for (int channel = 0; channel < 3; ++channel)
+        for (std::size_t channel = 0; channel < 3; ++channel)
             ASSERT_EQ(
                 json["bytes"][channel],
-                static_cast<unsigned char>(
-                    picture[header + static_cast<std::size_t>(3 * (32 * y + x) + channel)]))
+                static_cast<unsigned char>(picture[header + 3 * (32 * y + x) + channel]))
                 << x << ' ' << y;
     }
 }

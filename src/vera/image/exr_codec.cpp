@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/image/codecs.h"
-#include "vera/image/exr_streams.h"
+#include "vera/image/exr_streams-inl.h"
 
 #include <algorithm>
 #include <array>

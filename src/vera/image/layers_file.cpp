@@ -3,7 +3,7 @@
 
 #include "vera/base/check.h"
 #include "vera/image/codecs.h"
-#include "vera/image/exr_streams.h"
+#include "vera/image/exr_streams-inl.h"
 
 #include <cstdint>
 #include <optional>
@@ -37,6 +37,19 @@ slice(const void* samples, Imf::PixelType type, std::size_t width, std::int64_t 
         - static_cast<std::uintptr_t>(y) * width * word_bytes;
     char* const base = reinterpret_cast<char*>(address); // NOLINT(performance-no-int-to-ptr)
     return {type, base, word_bytes, word_bytes * width};
+}
+
+/// How few bits stand for a pixel before they are deflated, or packed by less.
+std::size_t pixel_bits(const Imf::Header& header) {
+    // These lose what hardly shows, and keep of 64 pixels perhaps one number a channel.
+    if (header.compression() == Imf::DWAA_COMPRESSION
+        || header.compression() == Imf::DWAB_COMPRESSION)
+        return 1;
+    constexpr std::size_t smallest_sample = 16;
+    std::size_t bits = 0;
+    for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel)
+        bits += smallest_sample;
+    return bits;
 }
 
 } // namespace
@@ -136,8 +149,9 @@ LayersReader::LayersReader(std::span<const std::byte> bytes, const std::string& 
              channel.channel().type == Imf::UINT ? LayerChannel::Type::uint32
                                                  : LayerChannel::Type::float32});
     }
-    // At least a bit a pixel before it was deflated: what promises more than that is damaged.
-    detail::check_plausible(width_, height_, 1, bytes.size(), name);
+    if (channels_.empty())
+        detail::throw_damaged(name, "it has no channels");
+    detail::check_plausible(width_, height_, pixel_bits(header), bytes.size(), name);
 }
 
 LayersReader::~LayersReader() = default;

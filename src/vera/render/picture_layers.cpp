@@ -17,7 +17,15 @@ namespace vera {
 
 namespace {
 
-constexpr std::size_t tile_side = 32;
+/// Of the tiles, and of the rows that are held at a time: fewer where there are very many layers.
+std::size_t tile_side(std::size_t channels, std::size_t width) {
+    constexpr std::size_t most_words = std::size_t{1} << 25; // 128 MiB
+    std::size_t side = 32;
+    while (side > 1 && channels * width * side > most_words)
+        side /= 2;
+    return side;
+}
+
 constexpr std::array<const char*, light_way_count> way_names = {"direct", "mirrored", "refracted"};
 
 /// Behind the colours of the layers.
@@ -238,15 +246,15 @@ RenderStatistics render_layers(
     std::span<const PictureLayer> layers,
     const LayerRowsSink& sink,
     const Progress& progress) {
-    const Tiling tiling = {raster.width, raster.height, tile_side};
     const std::size_t channels = layer_channels(layers).size();
+    const Tiling tiling = {raster.width, raster.height, tile_side(channels, raster.width)};
     ProgressMeter done(progress, static_cast<double>(tiling.count()));
     Workspaces<LayerWork> workspaces([&] { return std::make_unique<LayerWork>(traced); });
     Band band;
     band.width = raster.width;
     for (std::size_t row = 0; row < tiling.rows(); ++row) {
         const std::size_t first_tile = row * tiling.columns();
-        band.y = row * tile_side;
+        band.y = row * tiling.side;
         band.rows = tiling.tile(first_tile).height;
         band.words.resize(channels * band.rows * band.width);
         parallel_ranges(tiling.columns(), 1, [&](std::size_t first, std::size_t last) {

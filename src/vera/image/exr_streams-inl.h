@@ -17,7 +17,8 @@
 
 namespace vera::detail {
 
-// What the codecs of EXR files have in common: how OpenEXR reads and writes our files.
+// What the codecs of EXR files have in common: how OpenEXR reads and writes our files. For them
+// alone: it includes OpenEXR's headers, which others need not have.
 
 class ExrStream;
 
