@@ -369,6 +369,7 @@ void write_one(
 
 std::vector<Source> sources_of(const Request& request) {
     std::vector<Source> sources;
+    sources.reserve(request.inputs().size());
     for (const std::string& path : request.inputs()) {
         sources.emplace_back(request, path);
         sources.back().display();
@@ -378,6 +379,7 @@ std::vector<Source> sources_of(const Request& request) {
 
 std::vector<const Source*> pointers(const std::vector<Source>& sources) {
     std::vector<const Source*> all;
+    all.reserve(sources.size());
     for (const Source& source : sources)
         all.push_back(&source);
     return all;
@@ -401,6 +403,7 @@ void write_animation(const Request& request, const Console& console) {
     const Palette palette = chosen_palette(request, pointers(sources));
     RowProgress progress(console, sources.size() * sources[0].height());
     std::vector<IndexedPicture> pictures;
+    pictures.reserve(sources.size());
     for (const Source& source : sources)
         pictures.push_back(reduced(request, source, palette, progress));
     write_gif(pictures, file, whole_of("--delay", request.delay, 2, 65535));
