@@ -9,6 +9,7 @@
 #include "vera/image/image_file.h"
 #include "vera/image/oklab.h"
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <vector>
@@ -22,9 +23,18 @@ using namespace vera;
 constexpr double sigma = 1.5;
 constexpr std::ptrdiff_t reach = 5;
 
+std::array<double, 2 * reach + 1> gaussian() {
+    std::array<double, 2 * reach + 1> weights = {};
+    for (std::ptrdiff_t k = -reach; k <= reach; ++k)
+        weights[static_cast<std::size_t>(k + reach)] =
+            std::exp(-static_cast<double>(k * k) / (2 * sigma * sigma));
+    return weights;
+}
+
 /// Along rows where step is 3, along columns where it is a row; what lies outside repeats the edge.
 std::vector<float> blurred(
     const std::vector<float>& samples, std::size_t length, std::size_t step, std::size_t width) {
+    const auto gaussian_weights = gaussian();
     std::vector<float> result(samples.size());
     for (std::size_t i = 0; i < samples.size(); ++i) {
         const auto place = static_cast<std::ptrdiff_t>(step == 3 ? i / 3 % width : i / (3 * width));
@@ -34,7 +44,7 @@ std::vector<float> blurred(
             const std::ptrdiff_t at = place + k;
             if (at < 0 || at >= static_cast<std::ptrdiff_t>(length))
                 continue;
-            const double weight = std::exp(-static_cast<double>(k * k) / (2 * sigma * sigma));
+            const double weight = gaussian_weights[static_cast<std::size_t>(k + reach)];
             sum += weight * static_cast<double>(samples[i + static_cast<std::size_t>(k) * step]);
             weights += weight;
         }

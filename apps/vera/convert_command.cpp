@@ -2,16 +2,12 @@
 #include "vera/base/diagnostic.h"
 #include "vera/base/output_file.h"
 #include "vera/base/version.h"
-#include "vera/image/compressed_raster.h"
 #include "vera/image/converted_image.h"
 #include "vera/image/dither.h"
 #include "vera/image/image_file.h"
 #include "vera/image/indexed_file.h"
-#include "vera/math/elementary.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -20,6 +16,7 @@
 #include "interrupt.h"
 #include "messages.h"
 #include "option_values.h"
+#include "picture_source.h"
 #include "progress_display.h"
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -135,110 +132,6 @@ void check_colors(const Request& request, const Format& format) {
             "colours of a palette have 8 bits; write png, gif, ppm or vra instead");
 }
 
-/// "320x240+10+20"; nothing where it is not so, or a number is larger than any picture's.
-std::optional<PixelRectangle> rectangle_from(std::string_view text) {
-    constexpr std::string_view separators = "x++";
-    constexpr std::size_t most = (std::size_t{1} << 31) - 1;
-    std::array<std::size_t, 4> numbers = {};
-    for (std::size_t i = 0; i < numbers.size(); ++i) {
-        if (i > 0 && (text.empty() || text.front() != separators[i - 1]))
-            return std::nullopt;
-        text.remove_prefix(i > 0 ? 1 : 0);
-        const auto [end, error] =
-            std::from_chars(text.data(), text.data() + text.size(), numbers[i]);
-        if (error != std::errc() || numbers[i] > most)
-            return std::nullopt;
-        text.remove_prefix(static_cast<std::size_t>(end - text.data()));
-    }
-    if (!text.empty() || numbers[0] == 0 || numbers[1] == 0)
-        return std::nullopt;
-    return PixelRectangle{numbers[2], numbers[3], numbers[0], numbers[1]};
-}
-
-PixelRectangle crop_rectangle(const std::string& text, std::size_t width, std::size_t height) {
-    const auto place = rectangle_from(text);
-    if (!place)
-        throw CommandLineError(fmt::format(
-            "--crop takes WIDTHxHEIGHT+X+Y in pixels, as in 320x240+10+20; found '{}'", text));
-    if (place->x + place->width > width || place->y + place->height > height)
-        throw CommandLineError(fmt::format(
-            "--crop {} is not within the picture, which has {} x {} pixels", text, width, height));
-    return *place;
-}
-
-/// A picture that was read: a compressed raster stays compressed for as long as it can.
-class Source {
-public:
-    Source(const Request& request, const std::string& path)
-        : bytes_(file_bytes(path)) {
-        const std::string name = path == "-" ? "standard input" : path;
-        const std::string_view text(reinterpret_cast<const char*>(bytes_.data()), bytes_.size());
-        if (text.starts_with("\x89VRA"))
-            raster_.emplace(bytes_, name);
-        else
-            image_ = decoded_image(bytes_, name);
-        if (!request.crop.empty())
-            cut(request.crop);
-        if (request.exposure != 0) {
-            expand();
-            image_ = converted_image(image_, sample_type(image_), exp2_of(request.exposure));
-        }
-    }
-
-    Source(Source&&) = default;
-    Source(const Source&) = delete;
-    Source& operator=(const Source&) = delete;
-    Source& operator=(Source&&) = delete;
-    ~Source() = default;
-
-    std::size_t width() const { return raster_ ? raster_->width() : image_.width; }
-
-    std::size_t height() const { return raster_ ? raster_->height() : image_.height; }
-
-    Image image(SampleType type) {
-        expand();
-        return converted_image(image_, type);
-    }
-
-    /// Makes floats bytes, for what colours of a palette are taken from.
-    void display() {
-        if (!raster_ && sample_type(image_) == SampleType::float32)
-            image_ = converted_image(image_, SampleType::integer8);
-    }
-
-    PictureRows rows() const { return raster_ ? PictureRows(*raster_) : PictureRows(image_); }
-
-    void add_to(ColorHistogram& histogram) const {
-        if (raster_) {
-            histogram.add(*raster_);
-            return;
-        }
-        PictureRows all = rows();
-        for (std::size_t y = 0; y < image_.height; ++y) {
-            const auto row = all.next();
-            for (std::size_t i = 0; i < row.size(); i += 3)
-                histogram.add({row[i], row[i + 1], row[i + 2]});
-        }
-    }
-
-private:
-    void cut(const std::string& crop) {
-        const PixelRectangle place = crop_rectangle(crop, width(), height());
-        image_ = raster_ ? raster_->part(place) : part_of(image_, place);
-        raster_.reset();
-    }
-
-    void expand() {
-        if (raster_)
-            image_ = raster_->part({0, 0, raster_->width(), raster_->height()});
-        raster_.reset();
-    }
-
-    std::vector<std::byte> bytes_;
-    std::optional<CompressedRaster> raster_;
-    Image image_;
-};
-
 /// What works on rows tells how far it is, and can be stopped.
 class RowProgress {
 public:
@@ -275,11 +168,11 @@ Palette given_palette(const std::string& name) {
     return palette_from_text({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, name);
 }
 
-Palette chosen_palette(const Request& request, const std::vector<const Source*>& sources) {
+Palette chosen_palette(const Request& request, const std::vector<const PictureSource*>& sources) {
     if (!request.palette.empty())
         return given_palette(request.palette);
     ColorHistogram histogram;
-    for (const Source* source : sources)
+    for (const PictureSource* source : sources)
         source->add_to(histogram);
     constexpr std::size_t most_colors = 256;
     return optimal_palette(
@@ -288,7 +181,10 @@ Palette chosen_palette(const Request& request, const std::vector<const Source*>&
 
 /// The picture in a palette's colours, as it is asked for; source and progress must outlive it.
 IndexedPicture reduced(
-    const Request& request, const Source& source, const Palette& palette, RowProgress& progress) {
+    const Request& request,
+    const PictureSource& source,
+    const Palette& palette,
+    RowProgress& progress) {
     const auto rows = std::make_shared<PictureRows>(source.rows());
     const auto reducer = std::make_shared<ColorReducer>(
         palette, request.dither.value_or(Dither::floyd_steinberg), source.width());
@@ -324,7 +220,7 @@ PictureMetadata metadata() {
 void write_reduced(
     const Request& request,
     const Format& format,
-    const Source& source,
+    const PictureSource& source,
     const Palette& palette,
     OutputFile& file,
     const Console& console) {
@@ -346,7 +242,7 @@ void write_reduced(
 void write_one(
     const Request& request,
     const Format& format,
-    Source& source,
+    PictureSource& source,
     const fs::path& path,
     const Palette* palette_of_all,
     const Console& console) {
@@ -367,24 +263,26 @@ void write_one(
     file.commit();
 }
 
-std::vector<Source> sources_of(const Request& request) {
-    std::vector<Source> sources;
+std::vector<PictureSource> sources_of(const Request& request) {
+    std::vector<PictureSource> sources;
+    sources.reserve(request.inputs().size());
     for (const std::string& path : request.inputs()) {
-        sources.emplace_back(request, path);
+        sources.emplace_back(path, request.crop, request.exposure);
         sources.back().display();
     }
     return sources;
 }
 
-std::vector<const Source*> pointers(const std::vector<Source>& sources) {
-    std::vector<const Source*> all;
-    for (const Source& source : sources)
+std::vector<const PictureSource*> pointers(const std::vector<PictureSource>& sources) {
+    std::vector<const PictureSource*> all;
+    all.reserve(sources.size());
+    for (const PictureSource& source : sources)
         all.push_back(&source);
     return all;
 }
 
 void write_animation(const Request& request, const Console& console) {
-    const std::vector<Source> sources = sources_of(request);
+    const std::vector<PictureSource> sources = sources_of(request);
     for (std::size_t i = 1; i < sources.size(); ++i)
         if (sources[i].width() != sources[0].width() || sources[i].height() != sources[0].height())
             throw InputError({Diagnostic{
@@ -401,7 +299,8 @@ void write_animation(const Request& request, const Console& console) {
     const Palette palette = chosen_palette(request, pointers(sources));
     RowProgress progress(console, sources.size() * sources[0].height());
     std::vector<IndexedPicture> pictures;
-    for (const Source& source : sources)
+    pictures.reserve(sources.size());
+    for (const PictureSource& source : sources)
         pictures.push_back(reduced(request, source, palette, progress));
     write_gif(pictures, file, whole_of("--delay", request.delay, 2, 65535));
     file.commit();
@@ -429,7 +328,7 @@ void write_series(const Request& request, const Format& format, const Console& c
     if (request.palette_for_all)
         palette = chosen_palette(request, pointers(sources_of(request)));
     for (const auto& [output, input] : outputs) {
-        Source source(request, input);
+        PictureSource source(input, request.crop, request.exposure);
         write_one(request, format, source, output, palette ? &*palette : nullptr, console);
     }
 }
@@ -451,7 +350,7 @@ void convert(const Request& request, const Console& console) {
     } else if (request.inputs().size() > 1) {
         write_animation(request, console);
     } else {
-        Source source(request, request.inputs()[0]);
+        PictureSource source(request.inputs()[0], request.crop, request.exposure);
         write_one(request, format, source, request.output(), nullptr, console);
     }
 }

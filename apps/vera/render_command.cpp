@@ -13,6 +13,7 @@
 #include "messages.h"
 #include "option_values.h"
 #include "prepared_scene.h"
+#include "preview.h"
 #include "progress_display.h"
 #include "scene_index.h"
 #include "stopwatch.h"
@@ -37,6 +38,7 @@ struct Request {
     double jpeg_quality = 95;
     double threads = 0;
     bool json = false;
+    PreviewStyle preview = PreviewStyle::automatic;
 };
 
 /// What a run did and what it cost, for people and as JSON.
@@ -308,6 +310,7 @@ void render(const Request& request, const Console& console) {
     }
     file.commit();
     report.write_seconds += watch.lap();
+    show_preview(result.image, request.preview, console);
 
     if (request.json)
         fmt::print(request.output == "-" ? stderr : stdout, "{}\n", as_json(report).dump(2));
@@ -348,6 +351,7 @@ void add_render_command(CLI::App& app, Console& console) {
     add_strategy_option(*command, request->strategy);
     command->add_flag("--json", request->json, "rays, tests and times as JSON on standard output");
     add_console_options(*command, console);
+    add_preview_option(*command, request->preview);
     command->footer("Examples:\n"
                     "  vera render still_life.vera -c still_life.ctl -o still_life.png\n"
                     "  vera render scene.vera -o draft.png --raster 320x240 --antialias off\n"

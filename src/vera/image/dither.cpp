@@ -5,6 +5,7 @@
 #include "vera/math/elementary.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace vera {
@@ -28,11 +29,11 @@ std::uint8_t encoded_by_table(double light) {
         std::vector<std::uint8_t> encoded;
         for (int i = 0; i <= steps; ++i)
             encoded.push_back(static_cast<std::uint8_t>(
-                255 * srgb_encoded(static_cast<double>(i) / steps) + 0.5));
+                std::lround(255 * srgb_encoded(static_cast<double>(i) / steps))));
         return encoded;
     }();
     const double limited = light > 0 ? (light < 1 ? light : 1) : 0;
-    return table[static_cast<std::size_t>(limited * steps + 0.5)];
+    return table[static_cast<std::size_t>(std::lround(limited * steps))];
 }
 
 Rgb8 pixel_of(std::span<const std::uint8_t> row, std::size_t x) {
