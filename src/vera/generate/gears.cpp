@@ -34,6 +34,7 @@ Vec3 polar(double radius, double angle_degrees) {
 std::vector<Vec3> turned(const std::vector<Vec3>& outline, double angle_degrees) {
     const Affine3 map = rotation({0, 0, angle_degrees});
     std::vector<Vec3> points;
+    points.reserve(outline.size());
     for (const Vec3 point : outline)
         points.push_back(short_decimals(transformed_point(map, point)));
     return points;
@@ -59,6 +60,7 @@ void add_tooth(
         bore.push_back(short_decimals(polar(form.bore_radius, angle + part * half)));
     const double z = short_decimals(Vec3{0, 0, 0.5 * form.width}).z;
     std::vector<Vec3> face;
+    face.reserve(outer.size() + bore.size());
     for (const Vec3 point : outer)
         face.push_back(raised(point, z));
     for (std::size_t i = bore.size(); i-- > 0;)

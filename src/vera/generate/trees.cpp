@@ -37,7 +37,7 @@ struct TreeParts {
 TreeParts add_tree_parts(Scene& scene) {
     TreeParts parts = {};
     parts.bark = add_material(scene, "tree-bark", {0.36, 0.27, 0.19});
-    parts.foliage = add_material(scene, "tree-leaf", {0.34, 0.52, 0.14});
+    parts.foliage = add_material(scene, "tree-leaf", {0.44, 0.64, 0.19});
     scene.materials.back().arf = {0.06, 0.10, 0.02};
     scene.materials.back().sdi = {0.03, 0.06, 0.01};
     parts.leaf = add_subscene(scene, "tree-leaf-blade");
@@ -148,7 +148,8 @@ Scene make_forest(const ParameterValues& values) {
     const double first = -0.5 * spacing * static_cast<double>(rows - 1);
     for (std::size_t i = 0; i < rows * rows; ++i) {
         Chance chance(seed + 1, i);
-        const auto row = static_cast<double>(i / rows);
+        const std::size_t whole_rows = i / rows;
+        const auto row = static_cast<double>(whole_rows);
         const auto column = static_cast<double>(i % rows);
         const Affine3 map = in_turn(
             scaling(chance.between(0.7, 1.2)),
