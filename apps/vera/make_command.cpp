@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "vera/base/diagnostic.h"
 #include "vera/generate/generator.h"
+#include "vera/generate/surface.h"
 
 #include "make_output.h"
 #include <CLI/CLI.hpp>
@@ -20,6 +22,18 @@ ParameterValues checked_values(const Generator& generator, const std::vector<dou
         if (const auto problem = values.set(generator.parameters[i], given[i]))
             throw CommandLineError(*problem);
     return values;
+}
+
+Scene made(const Generator& generator, const ParameterValues& values) {
+    try {
+        return generator.make(values);
+    } catch (const SurfaceError& error) {
+        throw InputError(
+            {{.severity = Severity::error,
+              .place = {std::string(generator.name), 0, 0},
+              .problem = error.what(),
+              .remedy = error.remedy}});
+    }
 }
 
 void add_generator(CLI::App& make, const Generator& generator, Console& console) {
@@ -55,7 +69,7 @@ void add_generator(CLI::App& make, const Generator& generator, Console& console)
     command->callback([request, &generator, &console] {
         const ParameterValues values = checked_values(generator, request->values);
         check_make_output(request->output);
-        Scene scene = generator.make(values);
+        Scene scene = made(generator, values);
         if (!request->output.bare)
             scene = staged(std::move(scene), std::string(generator.name), generator.stage);
         write_made_scene(scene, request->output, console);

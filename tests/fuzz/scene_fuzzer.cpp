@@ -13,7 +13,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const vera::SourceText text(
         "no-such-folder/fuzz.vera", std::string(reinterpret_cast<const char*>(data), size));
     try {
-        const vera::SceneFile file = vera::read_vera_scene(text);
+        const vera::SceneFile file = vera::read_vera_scene(text, {.generators = false});
         const vera::Scene& scene = file.scene;
         for (const vera::Item& item : scene.geometry.items)
             VERA_CHECK(

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/formats/scene_writer.h"
 #include "vera/formats/vera_scene.h"
+#include "vera/generate/gears.h"
 #include "vera/generate/generator.h"
 
-#include <algorithm>
+#include <array>
+#include <map>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -66,6 +68,136 @@ TEST(Generators, SayWhatAValueMustBe) {
     EXPECT_EQ(
         values.set(balls.parameters[0], 2.5),
         "size of balls is 2.5, but must be a whole number from 0 to 12");
+}
+
+// Counted, not timed: what is in memory does not grow with what is seen.
+TEST(Generators, HoldABillionLeavesInFewCalls) {
+    const Scene forest = made("forest", {{"rows", 141}, {"levels", 8}, {"leaves", 8}});
+    // A tree of 8 forks by three has 3^8 twigs, of 8 leaves each.
+    EXPECT_GE(std::uint64_t{141 * 141} * 6561 * 8, 1'000'000'000U);
+    std::size_t held = 0;
+    std::uint64_t triangles_of_a_leaf = 0;
+    for (const Geometry& subscene : forest.subscenes) {
+        held += subscene.items.size();
+        for (const Mesh& mesh : subscene.meshes)
+            triangles_of_a_leaf = mesh.triangle_count();
+    }
+    EXPECT_LT(held, 500U);
+    EXPECT_EQ(forest.geometry.calls.size(), 141U * 141U);
+    EXPECT_GT(forest.geometry.primitive_count, 1'000'000'000U * triangles_of_a_leaf);
+}
+
+TEST(Generators, GrowAFicusThatIsOlderOnTopOfTheYoungerOne) {
+    const auto leaves = [](double age) {
+        const Scene scene = made("ficus", {{"age", age}, {"triangles", 100}});
+        return scene.geometry.calls.size();
+    };
+    EXPECT_LT(leaves(5), leaves(10));
+    EXPECT_LT(leaves(10), leaves(20));
+    // Leaves fall after 24 steps, or a few more.
+    const Scene stem =
+        made("ficus", {{"age", 60}, {"stems", 1}, {"branching", 0}, {"triangles", 100}});
+    EXPECT_GT(stem.geometry.calls.size(), 15U);
+    EXPECT_LT(stem.geometry.calls.size(), 28U);
+    EXPECT_EQ(made("ficus", {{"triangles", 2000}}).subscenes.size(), 1U);
+    const std::size_t blade =
+        made("ficus", {{"triangles", 2000}}).subscenes[0].meshes.at(0).triangle_count();
+    EXPECT_GT(blade, 1500U);
+    EXPECT_LT(blade, 2500U);
+}
+
+/// How often the sides of triangles and polygons lie between two places, one way less the other.
+std::map<std::array<double, 6>, int> open_sides(const Geometry& geometry) {
+    std::map<std::array<double, 6>, int> sides;
+    const auto count = [&](Vec3 a, Vec3 b) {
+        const std::array<double, 3> first = {a.x, a.y, a.z};
+        const std::array<double, 3> second = {b.x, b.y, b.z};
+        const bool forwards = first < second;
+        const Vec3 low = forwards ? a : b;
+        const Vec3 high = forwards ? b : a;
+        sides[{low.x, low.y, low.z, high.x, high.y, high.z}] += forwards ? 1 : -1;
+    };
+    for (const Triangle& triangle : geometry.triangles)
+        for (std::size_t i = 0; i < 3; ++i)
+            count(triangle.corners[i], triangle.corners[(i + 1) % 3]);
+    for (const Polygon& polygon : geometry.polygons)
+        for (std::uint32_t i = 0; i < polygon.corner_count; ++i)
+            count(
+                geometry.corners[polygon.first_corner + i],
+                geometry.corners[polygon.first_corner + (i + 1) % polygon.corner_count]);
+    std::erase_if(sides, [](const auto& side) { return side.second == 0; });
+    return sides;
+}
+
+TEST(Generators, MakeLandWithoutGaps) {
+    const Scene scene = made("terrain", {{"detail", 5}, {"water", 0}});
+    // The bottom is one square, whose sides are not cut where the walls' are.
+    const std::size_t cuts = 4 * 32 + 4;
+    EXPECT_EQ(open_sides(scene.geometry).size(), cuts);
+    for (const auto& [side, count] : open_sides(scene.geometry)) {
+        EXPECT_EQ(side[1], -0.08);
+        EXPECT_EQ(side[4], -0.08);
+    }
+}
+
+TEST(Generators, MakeGearsThatAreClosed) {
+    for (const double teeth : {6, 17, 24, 60})
+        EXPECT_THAT(open_sides(made("gear", {{"teeth", teeth}}).geometry), testing::IsEmpty())
+            << teeth;
+}
+
+bool crosses(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
+    const auto side = [](Vec3 p, Vec3 q, Vec3 r) { return cross(q - p, r - p).z; };
+    return side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0;
+}
+
+/// The outline of a gear of all its teeth, turned and moved.
+std::vector<Vec3> outline(std::size_t teeth, double turn_degrees, double x) {
+    std::vector<Vec3> points;
+    const std::vector<Vec3> tooth = tooth_outline({.teeth = teeth});
+    for (std::size_t i = 0; i < teeth; ++i)
+        for (const Vec3 point : tooth)
+            points.push_back(transformed_point(
+                composed(
+                    translation({x, 0, 0}),
+                    rotation(
+                        {0,
+                         0,
+                         turn_degrees
+                             + 360.0 * static_cast<double>(i) / static_cast<double>(teeth)})),
+                point));
+    return points;
+}
+
+// Turned together, involute teeth touch and never cut each other; a little play is left to them.
+TEST(Generators, MakeTeethThatRollOnEachOther) {
+    constexpr std::size_t one = 30;
+    constexpr std::size_t other = 20;
+    for (const double turn : {0.0, 2.0, 5.5, 9.0}) {
+        const std::vector<Vec3> first = outline(one, turn, 0);
+        const double back = 180 + 180.0 / other - turn * one / other;
+        const std::vector<Vec3> second = outline(other, back, 25.02);
+        for (std::size_t i = 0; i < first.size(); ++i)
+            for (std::size_t j = 0; j < second.size(); ++j)
+                ASSERT_FALSE(crosses(
+                    first[i],
+                    first[(i + 1) % first.size()],
+                    second[j],
+                    second[(j + 1) % second.size()]))
+                    << turn;
+        // Moved together by a quarter of a tooth's height, they do.
+        bool cut = false;
+        const std::vector<Vec3> nearer = outline(other, back, 24.5);
+        for (std::size_t i = 0; i < first.size(); ++i)
+            for (std::size_t j = 0; j < nearer.size(); ++j)
+                cut = cut
+                    || crosses(
+                          first[i],
+                          first[(i + 1) % first.size()],
+                          nearer[j],
+                          nearer[(j + 1) % nearer.size()]);
+        EXPECT_TRUE(cut) << turn;
+    }
 }
 
 class EveryGenerator : public testing::TestWithParam<const Generator*> {};

@@ -194,7 +194,7 @@ TEST(Surface, IsTheSameForAnyNumberOfThreads) {
         return tessellated(surface, {.allowed = deviation_of(0.01)});
     };
     const Mesh one = mesh(1);
-    for (const std::size_t threads : {2, 7}) {
+    for (const std::size_t threads : {2U, 7U}) {
         const Mesh other = mesh(threads);
         EXPECT_EQ(one.positions, other.positions);
         EXPECT_EQ(one.position_indices, other.position_indices);

@@ -36,7 +36,8 @@ bool makes(std::optional<Statement> statement, ItemKind kind) {
     case ItemKind::mesh:
         return statement == Statement::mesh;
     case ItemKind::subscene_call:
-        return statement == Statement::subscene_call || statement == Statement::mesh;
+        return statement == Statement::subscene_call || statement == Statement::mesh
+            || statement == Statement::make;
     }
     return false;
 }

@@ -38,6 +38,14 @@ NameTable::defined(std::string_view name, const WordPlace& place, Complaints& co
     return id;
 }
 
+bool NameTable::defined_by_default(std::string_view name, const WordPlace& place) {
+    auto& definition = entries_[number(name)].definition;
+    if (definition)
+        return false;
+    definition = place;
+    return true;
+}
+
 std::uint32_t NameTable::unnamed() {
     entries_.push_back({});
     return static_cast<std::uint32_t>(entries_.size() - 1);

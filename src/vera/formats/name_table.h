@@ -35,6 +35,9 @@ public:
     std::optional<std::uint32_t>
     defined(std::string_view name, const WordPlace& place, Complaints& complaints);
 
+    /// Whether it had no definition until now, when it gets one of the program's own.
+    bool defined_by_default(std::string_view name, const WordPlace& place);
+
     /// A number for something that has no name in the text.
     std::uint32_t unnamed();
 

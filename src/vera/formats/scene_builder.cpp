@@ -309,17 +309,59 @@ void SceneBuilder::add_call(
     calls.push_back({subscene, placement.to_parent, placement.from_parent});
 }
 
+Geometry& SceneBuilder::new_unnamed_subscene(SubsceneId& id) {
+    const std::uint32_t number = subscene_names_.unnamed();
+    subscenes_.resize(std::max<std::size_t>(subscenes_.size(), number + 1));
+    id = SubsceneId{number};
+    return subscenes_[number];
+}
+
 SubsceneId SceneBuilder::add_mesh_subscene(std::string name, Mesh mesh, const WordPlace& place) {
-    const std::uint32_t id = subscene_names_.unnamed();
-    subscenes_.resize(std::max<std::size_t>(subscenes_.size(), id + 1));
-    Geometry& geometry = subscenes_[id];
+    SubsceneId id = {};
+    Geometry& geometry = new_unnamed_subscene(id);
     geometry.name = std::move(name);
     geometry.meshes.push_back(std::move(mesh));
     geometry.items.push_back(
         {.kind = ItemKind::mesh,
          .file = file_,
          .line = static_cast<std::uint32_t>(std::min<std::uint64_t>(place.line, 0xffffffff))});
-    return SubsceneId{id};
+    return id;
+}
+
+SubsceneId SceneBuilder::add_made_subscene(std::string name, Scene made, const WordPlace& place) {
+    std::vector<MaterialId> materials;
+    for (Material& material : made.materials) {
+        const Material& standard =
+            standard_materials_.emplace_back(std::move(material), place).first;
+        materials.push_back(MaterialId{material_names_.used(standard.name, place)});
+    }
+    std::vector<SubsceneId> ids(made.subscenes.size() + 1);
+    for (std::size_t i = 0; i < made.subscenes.size(); ++i)
+        new_unnamed_subscene(ids[i]) = std::move(made.subscenes[i]);
+    made.geometry.name = std::move(name);
+    new_unnamed_subscene(ids.back()) = std::move(made.geometry);
+    const auto line = static_cast<std::uint32_t>(std::min<std::uint64_t>(place.line, 0xffffffff));
+    for (const SubsceneId id : ids) {
+        Geometry& geometry = subscenes_[static_cast<std::size_t>(id)];
+        for (SubsceneCall& call : geometry.calls)
+            call.subscene = ids[static_cast<std::size_t>(call.subscene)];
+        for (Item& item : geometry.items) {
+            item.file = file_;
+            item.line = line;
+            if (item.material != inherited_material)
+                item.material = materials[static_cast<std::size_t>(item.material)];
+        }
+    }
+    return ids.back();
+}
+
+void SceneBuilder::define_standard_materials() {
+    for (const auto& [material, place] : standard_materials_)
+        if (material_names_.defined_by_default(material.name, place)) {
+            const std::uint32_t id = material_names_.used(material.name, place);
+            scene_.materials.resize(std::max<std::size_t>(scene_.materials.size(), id + 1));
+            scene_.materials[id] = material;
+        }
 }
 
 } // namespace vera

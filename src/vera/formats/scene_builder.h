@@ -66,6 +66,10 @@ public:
     /// A subscene of one mesh, of which the text knows no name.
     SubsceneId add_mesh_subscene(std::string name, Mesh mesh, const WordPlace& place);
 
+    /// A subscene of what a generator made, of which the text knows no name. Its materials are
+    /// those of the text that have their names; where there are none, the generator's own.
+    SubsceneId add_made_subscene(std::string name, Scene made, const WordPlace& place);
+
     /// The scene; if the complaints hold an error after the last checks, one without use.
     Scene finish();
 
@@ -92,6 +96,8 @@ private:
         Outside outside,
         const WordPlace& place);
     void add_split_quadrangle(const std::array<Vec3, 4>& corners, const WordPlace& place);
+    Geometry& new_unnamed_subscene(SubsceneId& id);
+    void define_standard_materials();
     void warn_no_area(const WordPlace& place, std::string_view what);
     void check_inner_point(const Section& section);
     void check_materials(const std::vector<std::size_t>& callees_first);
@@ -108,6 +114,8 @@ private:
     NameTable material_names_{"material"};
     NameTable subscene_names_{"subscene"};
     Material discarded_material_;
+    /// Of generators; material_names_ points at their names.
+    std::deque<std::pair<Material, WordPlace>> standard_materials_;
     std::optional<WordPlace> camera_place_;
     Section main_ = {.geometry = &scene_.geometry};
     Section subscene_ = {.geometry = &discarded_};

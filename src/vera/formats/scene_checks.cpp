@@ -154,6 +154,7 @@ void SceneBuilder::warn_of_idle_materials() {
 Scene SceneBuilder::finish() {
     end_subscene();
     check_inner_point(main_);
+    define_standard_materials();
     material_names_.complain_of_undefined(complaints_);
     subscene_names_.complain_of_undefined(complaints_);
     // Names that are used and never defined have numbers as well.

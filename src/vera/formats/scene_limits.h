@@ -12,6 +12,8 @@ struct SceneLimits {
     std::uint64_t items = 0xffff'fffe;
     /// Pairs of a polygon's sides that are looked at for a crossing: a second's work.
     std::uint64_t side_pairs = 100'000'000;
+    /// Whether what MK asks for is made: fuzzers only read it.
+    bool generators = true;
 };
 
 } // namespace vera

@@ -87,6 +87,7 @@ StatementCounts count_statements(std::string_view text, CountFor scene) {
         case Statement::rotational_shape:
         case Statement::subscene_call:
         case Statement::mesh:
+        case Statement::make:
             ++counts.others;
             break;
         case Statement::subscene:

@@ -27,19 +27,20 @@ enum class Statement : std::uint8_t {
     material,
     subscene,
     include,
-    mesh
+    mesh,
+    make
 };
 
 /// All words of the scene language. Reserved: no material and no subscene has such a name. Those
 /// that begin statements come first.
-constexpr std::array<std::string_view, 36> scene_words = {
-    "PROJECTION", "PARALLEL", "LI",  "SP",  "P3",  "P4",    "PN",      "PA",   "RS",
-    "RK",         "SSC",      "CM",  "IP",  "MA",  "SCENE", "INCLUDE", "MESH", "P",
-    "V",          "AN",       "GE",  "KR",  "KE",  "KU",    "MX",      "RT",   "TR",
-    "SC",         "DRF",      "ARF", "SDI", "SAN", "RAB",   "TAB",     "SPC",  "REF"};
+constexpr std::array<std::string_view, 37> scene_words = {
+    "PROJECTION", "PARALLEL", "LI",  "SP",  "P3",    "P4",      "PN",   "PA", "RS", "RK",
+    "SSC",        "CM",       "IP",  "MA",  "SCENE", "INCLUDE", "MESH", "MK", "P",  "V",
+    "AN",         "GE",       "KR",  "KE",  "KU",    "MX",      "RT",   "TR", "SC", "DRF",
+    "ARF",        "SDI",      "SAN", "RAB", "TAB",   "SPC",     "REF"};
 
 /// How many of them begin statements.
-constexpr std::size_t statement_word_count = 17;
+constexpr std::size_t statement_word_count = 18;
 
 constexpr std::array<std::string_view, 4> contour_words = {"GE", "KR", "KE", "KU"};
 constexpr std::array<std::string_view, 4> transformation_words = {"MX", "RT", "TR", "SC"};
@@ -52,7 +53,7 @@ constexpr unsigned letter_pair(std::string_view word) {
 }
 
 /// The statements of two letters, those of which texts have most first. RS and RK begin the same.
-constexpr std::array<std::pair<unsigned, Statement>, 11> short_statements = {{
+constexpr std::array<std::pair<unsigned, Statement>, 12> short_statements = {{
     {letter_pair("P3"), Statement::triangle},
     {letter_pair("SP"), Statement::sphere},
     {letter_pair("P4"), Statement::quadrangle},
@@ -64,6 +65,7 @@ constexpr std::array<std::pair<unsigned, Statement>, 11> short_statements = {{
     {letter_pair("RK"), Statement::rotational_shape},
     {letter_pair("MA"), Statement::material},
     {letter_pair("LI"), Statement::light},
+    {letter_pair("MK"), Statement::make},
 }};
 
 constexpr std::array<std::pair<std::string_view, Statement>, 6> long_statements = {{

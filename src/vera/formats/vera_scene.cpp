@@ -3,11 +3,13 @@
 
 #include "vera/formats/control_words.h"
 #include "vera/formats/included_files.h"
+#include "vera/formats/made_parts.h"
 #include "vera/formats/scene_builder.h"
 #include "vera/formats/statement_count.h"
 #include "vera/formats/vera_keywords.h"
 #include "vera/formats/vera_statements.h"
 #include "vera/formats/word_reader.h"
+#include "vera/generate/surface.h"
 
 #include <algorithm>
 #include <map>
@@ -26,7 +28,8 @@ namespace {
 class VeraReader {
 public:
     VeraReader(const SourceText& text, const SceneLimits& limits)
-        : builder_(complaints_, limits)
+        : limits_(limits)
+        , builder_(complaints_, limits)
         , files_(complaints_) {
         begin_text(text);
     }
@@ -169,6 +172,8 @@ private:
             return read_include();
         case Statement::mesh:
             return read_mesh_statement(place);
+        case Statement::make:
+            return read_make(place);
         default:
             return read_primitive(statement, place);
         }
@@ -316,12 +321,44 @@ private:
             builder_.add_call(*known->second, *placement, place);
     }
 
+    /// MK name {parameter value} {MX | RT | TR | SC}
+    void read_make(const WordPlace& place) {
+        const auto part = read_made_part(words());
+        if (!part)
+            return;
+        making_words_ = parameter_words(part->name);
+        making_words_.insert(
+            making_words_.end(), transformation_words.begin(), transformation_words.end());
+        optional_words_ = making_words_;
+        const auto placement = read_transformations(words());
+        if (!placement || !limits_.generators)
+            return;
+        // What is made with the same values is in memory once.
+        auto known = made_.find(part->key);
+        if (known == made_.end())
+            known = made_.emplace(part->key, made(*part, place)).first;
+        if (known->second)
+            builder_.add_call(*known->second, *placement, place);
+    }
+
+    std::optional<SubsceneId> made(const MadePart& part, const WordPlace& place) {
+        try {
+            return builder_.add_made_subscene(part.name, part.make(), place);
+        } catch (const SurfaceError& error) {
+            complaints_.error(part.place, error.what(), error.remedy);
+            return std::nullopt;
+        }
+    }
+
+    SceneLimits limits_;
     Complaints complaints_;
     SceneBuilder builder_;
     IncludedFiles files_;
     std::vector<std::unique_ptr<WordReader>> texts_; ///< each included by the one before it
     std::size_t inclusions_ = 0;
     std::map<std::filesystem::path, std::optional<SubsceneId>> mesh_subscenes_;
+    std::map<std::string, std::optional<SubsceneId>> made_; ///< by MadePart::key
+    std::vector<std::string_view> making_words_;            ///< that optional_words_ may show
     std::string_view complete_; ///< the keyword of the statement read last, if it was right
     std::span<const std::string_view> optional_words_; ///< that could have gone on with it
 };

@@ -292,10 +292,11 @@ WordReader::take_name(const char* what, std::span<const std::string_view> reserv
     return word;
 }
 
-std::optional<std::string_view> WordReader::take_file_name() {
+std::optional<std::string_view>
+WordReader::take_quoted(std::string_view sort, std::string_view remedy) {
     const std::string_view word = peek();
     if (word.empty() || word[0] != '"') {
-        expected("a file name in double quotes", "for example \"bunny.ply\"");
+        expected(fmt::format("a {} in double quotes", sort), std::string(remedy));
         return std::nullopt;
     }
     const char* close = at_ + 1;
@@ -303,16 +304,24 @@ std::optional<std::string_view> WordReader::take_file_name() {
         ++close;
     if (close == end_ || *close == '\n') {
         complaints_.error(
-            place(), "this file name is never closed", "write '\"' behind it, in the same line");
+            place(),
+            fmt::format("this {} is never closed", sort),
+            "write '\"' behind it, in the same line");
         return std::nullopt;
     }
-    const std::string_view name = {at_ + 1, static_cast<std::size_t>(close - at_) - 1};
-    if (name.empty() || name.find('\0') != std::string_view::npos) {
-        complaints_.error(place(), "expected the name of a file, found none between the quotes");
-        return std::nullopt;
-    }
-    last_ = place_of(at_, name.size() + 2);
+    const std::string_view text = {at_ + 1, static_cast<std::size_t>(close - at_) - 1};
+    last_ = place_of(at_, text.size() + 2);
     at_ = close + 1;
+    return text;
+}
+
+std::optional<std::string_view> WordReader::take_file_name() {
+    const WordPlace begin = place();
+    const auto name = take_quoted("file name", "for example \"bunny.ply\"");
+    if (name && (name->empty() || name->find('\0') != std::string_view::npos)) {
+        complaints_.error(begin, "expected the name of a file, found none between the quotes");
+        return std::nullopt;
+    }
     return name;
 }
 

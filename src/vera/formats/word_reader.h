@@ -53,6 +53,9 @@ public:
     std::optional<std::string_view>
     take_name(const char* what, std::span<const std::string_view> reserved);
 
+    /// What stands between double quotes on one line: sort says what, "formula", and remedy how.
+    std::optional<std::string_view> take_quoted(std::string_view sort, std::string_view remedy);
+
     /// A file name between double quotes on one line.
     std::optional<std::string_view> take_file_name();
 

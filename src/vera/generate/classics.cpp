@@ -213,14 +213,15 @@ Scene make_rings(const ParameterValues& values) {
     for (std::size_t layer = 1; layer <= size; ++layer) {
         const double height = spacing * 0.75 * static_cast<double>(size - layer) + 1;
         const double first = -0.5 * spacing * static_cast<double>(layer - 1);
-        for (std::size_t i = 0; i < layer * layer; ++i)
-            add_call(
-                scene.geometry,
-                cluster,
-                translation(
-                    {first + spacing * static_cast<double>(i % layer),
-                     height,
-                     first + spacing * static_cast<double>(i / layer)}));
+        for (std::size_t row = 0; row < layer; ++row)
+            for (std::size_t column = 0; column < layer; ++column)
+                add_call(
+                    scene.geometry,
+                    cluster,
+                    translation(
+                        {first + spacing * static_cast<double>(column),
+                         height,
+                         first + spacing * static_cast<double>(row)}));
     }
     return scene;
 }

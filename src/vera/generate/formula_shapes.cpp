@@ -14,8 +14,7 @@ namespace {
 constexpr double turn = 2 * std::numbers::pi;
 
 Mesh mesh_within(const Surface& surface, double deviation) {
-    // The ranges of the parameters keep the triangles few enough for any machine.
-    return tessellated(surface, {.allowed = deviation_of(deviation), .most_triangles = 20'000'000});
+    return tessellated(surface, {.allowed = deviation_of(deviation)});
 }
 
 } // namespace

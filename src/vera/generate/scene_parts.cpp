@@ -4,6 +4,7 @@
 #include "vera/base/check.h"
 #include "vera/scene/polygon_triangles.h"
 
+#include <cmath>
 #include <utility>
 
 namespace vera {
@@ -98,6 +99,52 @@ Affine3 turned_from_y(Vec3 direction) {
             map.linear.rows[row][column] = column == 1 ? reflected : -reflected;
         }
     return map;
+}
+
+void remove_unused_subscenes(Scene& scene) {
+    std::vector<bool> used(scene.subscenes.size(), false);
+    std::vector<const Geometry*> callers = {&scene.geometry};
+    while (!callers.empty()) {
+        const Geometry& caller = *callers.back();
+        callers.pop_back();
+        for (const SubsceneCall& call : caller.calls) {
+            const auto callee = static_cast<std::size_t>(call.subscene);
+            if (used[callee])
+                continue;
+            used[callee] = true;
+            callers.push_back(&scene.subscenes[callee]);
+        }
+    }
+    std::vector<SubsceneId> numbers(used.size());
+    std::vector<Geometry> kept;
+    for (std::size_t i = 0; i < used.size(); ++i)
+        if (used[i]) {
+            numbers[i] = SubsceneId{static_cast<std::uint32_t>(kept.size())};
+            kept.push_back(std::move(scene.subscenes[i]));
+        }
+    scene.subscenes = std::move(kept);
+    const auto renumber = [&](Geometry& geometry) {
+        for (SubsceneCall& call : geometry.calls)
+            call.subscene = numbers[static_cast<std::size_t>(call.subscene)];
+    };
+    renumber(scene.geometry);
+    for (Geometry& subscene : scene.subscenes)
+        renumber(subscene);
+}
+
+Vec3 short_decimals(Vec3 a) {
+    constexpr double million = 1e6;
+    // A quotient of whole numbers is the double nearest to the decimal, and so is printed as that.
+    const auto rounded = [](double x) { return std::floor(x * million + 0.5) / million + 0.0; };
+    return {rounded(a.x), rounded(a.y), rounded(a.z)};
+}
+
+Affine3 short_decimals(const Affine3& map) {
+    Affine3 rounded;
+    for (std::size_t row = 0; row < 3; ++row)
+        rounded.linear.rows[row] = short_decimals(map.linear.rows[row]);
+    rounded.translation = short_decimals(map.translation);
+    return rounded;
 }
 
 } // namespace vera

@@ -41,6 +41,15 @@ RotationalShape cone_between(Vec3 base, double base_radius, Vec3 tip, double tip
 /// A map that turns the y axis into the unit vector, by the shortest way, and leaves the origin.
 Affine3 turned_from_y(Vec3 direction);
 
+/// Leaves out subscenes that are called from nowhere.
+void remove_unused_subscenes(Scene& scene);
+
+/// The nearest multiples of 1e-6, which are short in texts.
+Vec3 short_decimals(Vec3 a);
+
+/// A map whose numbers are such multiples; it must stay invertible.
+Affine3 short_decimals(const Affine3& map);
+
 /// First one, then the other.
 template <typename... Maps>
 Affine3 in_turn(const Affine3& first, const Maps&... then) {

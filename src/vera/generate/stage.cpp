@@ -3,8 +3,8 @@
 
 #include "vera/generate/scene_parts.h"
 #include "vera/math/elementary.h"
-#include "vera/scene/bounds.h"
 #include "vera/scene/framing.h"
+#include "vera/scene/support.h"
 
 #include <fmt/format.h>
 
@@ -25,18 +25,27 @@ Vec3 towards_viewer(double azimuth_degrees, double elevation_degrees) {
         cos_degrees(azimuth_degrees) * across};
 }
 
-/// A ball that holds the model: its box's.
+/// The ball round the model's box.
 struct Extent {
     Vec3 center;
     double radius = 0;
     double floor = 0; ///< the lowest y
 };
 
+/// By the surfaces themselves: boxes of subscenes within subscenes would be far too large.
 Extent extent(const Scene& scene) {
-    const Box3 box = bounds(scene);
-    if (box.empty())
+    const SceneSupport support(scene);
+    if (support.bounds().empty())
         return {};
-    return {0.5 * (box.lower + box.upper), 0.5 * length(box.upper - box.lower), box.lower.y};
+    Vec3 lower;
+    Vec3 upper;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        Vec3 along;
+        along[axis] = 1;
+        lower[axis] = (*support.farthest_point(-along))[axis];
+        upper[axis] = (*support.farthest_point(along))[axis];
+    }
+    return {0.5 * (lower + upper), 0.5 * length(upper - lower), lower.y};
 }
 
 Camera stage_camera(const Scene& scene, const Extent& model, const Stage& stage) {
@@ -65,7 +74,8 @@ PointLight stage_light(
     double elevation_degrees,
     double strength,
     Color color) {
-    constexpr double distance = 8;
+    // The sun is far away.
+    const double distance = stage.ground == Stage::Ground::meadow ? 150 : 8;
     const Vec3 direction = towards_viewer(stage.azimuth_degrees + side_degrees, elevation_degrees);
     const double away = distance * model.radius;
     return {
@@ -92,25 +102,35 @@ RotationalShape studio_room(const Extent& model) {
     return room;
 }
 
+/// A disc of grass below a dome that shines by itself.
+void add_meadow(Scene& scene, const Extent& model) {
+    const double reach = 200 * model.radius;
+    const MaterialId grass = add_material(scene, "meadow", {0.24, 0.32, 0.12});
+    scene.materials.back().sdi = {0.11, 0.15, 0.06};
+    const MaterialId sky = add_material(scene, "sky", {});
+    scene.materials.back().sdi = {0.66, 0.79, 0.94};
+    RotationalShape ground;
+    ground.base = {model.center.x, model.floor, model.center.z};
+    ground.axis = {0, 1, 0};
+    ground.contour.push_back({.end = {reach, 0}});
+    RotationalShape dome = ground;
+    dome.start = {reach, 0};
+    dome.contour = {
+        {.kind = ContourPiece::Kind::conic,
+         .control = {{{reach, reach}}},
+         .weight = cos_degrees(45),
+         .end = {0, reach}}};
+    add(scene.geometry, ground, grass);
+    add(scene.geometry, dome, sky);
+}
+
 void add_ground(Scene& scene, const Extent& model, const Stage& stage) {
-    if (stage.ground == Stage::Ground::meadow) {
-        constexpr double reach = 40; // radii
-        const MaterialId grass = add_material(scene, "meadow", {0.30, 0.38, 0.16});
-        const MaterialId sky = add_material(scene, "sky", {});
-        scene.materials.back().sdi = {0.62, 0.76, 0.92};
-        RotationalShape ground;
-        ground.base = {model.center.x, model.floor, model.center.z};
-        ground.axis = {0, 1, 0};
-        ground.contour.push_back({.end = {reach * model.radius, 0}});
-        add(scene.geometry, ground, grass);
-        add(scene.geometry, Sphere{ground.base, reach * model.radius}, sky);
-        return;
-    }
-    const MaterialId room = add_material(scene, "room", {0.74, 0.76, 0.80});
-    RotationalShape shape = studio_room(model);
-    if (stage.ground == Stage::Ground::nothing)
-        shape.base.y -= 6 * model.radius;
-    add(scene.geometry, shape, room);
+    if (stage.ground == Stage::Ground::meadow)
+        return add_meadow(scene, model);
+    const MaterialId room = add_material(scene, "room", {0.60, 0.61, 0.64});
+    // The wall is far from the lights.
+    scene.materials.back().sdi = {0.17, 0.18, 0.20};
+    add(scene.geometry, studio_room(model), room);
 }
 
 } // namespace

@@ -11,9 +11,8 @@ namespace vera {
 /// What is set up round a model so that its picture is worth looking at.
 struct Stage {
     enum class Ground {
-        studio,  ///< a pale floor that bends up into a wall
-        meadow,  ///< grass below a sky
-        nothing, ///< the model brings what it needs, or hangs before a wall far away
+        studio, ///< a pale floor that bends up into a wall
+        meadow, ///< grass below a sky
     };
 
     Ground ground = Ground::studio;

@@ -100,13 +100,21 @@ bound_of(const ParameterGrid& grid, const ParameterCell& cell, const AllowedDevi
 
 /// How many triangles it would be in all, should the bounds shrink with the area of cells.
 double forecast(std::size_t done, const std::vector<CellBound>& bounds) {
-    double cells = static_cast<double>(done);
+    auto cells = static_cast<double>(done);
     for (const CellBound& bound : bounds)
         cells += std::max(1.0, bound.deviation / bound.allowed);
     return 2 * cells;
 }
 
-[[noreturn]] void refuse_many(double triangles, std::size_t most) {
+[[noreturn]] void refuse_many(
+    const ParameterGrid& grid,
+    const std::vector<ParameterCell>& open,
+    const std::vector<CellBound>& bounds,
+    double triangles,
+    std::size_t most) {
+    for (std::size_t i = 0; i < open.size(); ++i)
+        if (!std::isfinite(bounds[i].deviation))
+            refuse_place(grid, open[i]);
     throw SurfaceError(
         fmt::format("this takes about {:.2g} triangles, and {} are allowed", triangles, most),
         "allow a larger deviation, or more triangles");
@@ -128,12 +136,8 @@ good_cells(const ParameterGrid& grid, const TessellationSettings& settings) {
                 bounds[i] = bound_of(grid, open[i], settings.allowed);
         });
         const double triangles = forecast(good.size(), bounds);
-        if (2 * (good.size() + open.size()) > settings.most_triangles) {
-            for (std::size_t i = 0; i < open.size(); ++i)
-                if (!std::isfinite(bounds[i].deviation))
-                    refuse_place(grid, open[i]);
-            refuse_many(triangles, settings.most_triangles);
-        }
+        if (2 * (good.size() + open.size()) > settings.most_triangles)
+            refuse_many(grid, open, bounds, triangles, settings.most_triangles);
         std::vector<ParameterCell> next;
         for (std::size_t i = 0; i < open.size(); ++i) {
             const ParameterCell& cell = open[i];

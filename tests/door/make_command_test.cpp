@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include "door/program.h"
+
+namespace vera {
+namespace {
+
+bool holds(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+TEST(MakeCommand, WritesASceneAndAControlFileThatMakeAPicture) {
+    const ScratchFolder folder;
+    const ProgramRun made = run_vera(folder, "make balls --size 1 -o balls.vera");
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    EXPECT_EQ(made.out, "");
+    EXPECT_TRUE(holds(made.err, "vera render balls.vera -c balls.ctl -o balls.png")) << made.err;
+    EXPECT_EQ(folder.file_count(), 2U);
+    const ProgramRun rendered =
+        run_vera(folder, "render balls.vera -c balls.ctl -o balls.png --raster 16x16");
+    EXPECT_EQ(rendered.exit_code, 0) << rendered.err;
+    EXPECT_FALSE(holds(rendered.err, "warning")) << rendered.err;
+}
+
+TEST(MakeCommand, WritesBareModelsAndToStandardOutput) {
+    const ScratchFolder folder;
+    const ProgramRun run = run_vera(folder, "make tetra --size 1 --bare -o -");
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ(run.err, "");
+    EXPECT_EQ(std::count(run.out.begin(), run.out.end(), 'P'), 4) << run.out;
+    EXPECT_FALSE(holds(run.out, "PROJECTION"));
+    EXPECT_EQ(folder.file_count(), 0U);
+}
+
+TEST(MakeCommand, ListsAndHelps) {
+    const ScratchFolder folder;
+    const ProgramRun list = run_vera(folder, "make --list");
+    EXPECT_EQ(list.exit_code, 0);
+    for (const char* name :
+         {"balls", "ficus", "forest", "gear", "shell", "surface", "terrain", "tree"})
+        EXPECT_TRUE(holds(list.out, name)) << name;
+    const ProgramRun help = run_vera(folder, "make ficus --help");
+    EXPECT_EQ(help.exit_code, 0);
+    for (const char* part : {"--seed", "--dominance", "1 to 100, if not given 34", "Examples:"})
+        EXPECT_TRUE(holds(help.out, part)) << part << '\n' << help.out;
+    EXPECT_TRUE(holds(run_vera(folder, "make surface --help").out, "atan2, cos"));
+}
+
+TEST(MakeCommand, RunsTheExamplesOfItsHelp) {
+    const ScratchFolder folder;
+    for (const char* example :
+         {"make balls --size 3 -o balls.vera",
+          "make surface \"cos(u)*cos(v)\" \"sin(v)\" \"sin(u)*cos(v)\" --u 0 2*pi --v -pi/2 pi/2 "
+          "-o ball.vera",
+          "make surface u v \"sin(n*(u^2+v^2))/n\" --let n=5 --z-up --u -1 1 --v -1 1 --pixels "
+          "0.5 -o waves.vera"}) {
+        const ProgramRun run = run_vera(folder, example);
+        EXPECT_EQ(run.exit_code, 0) << example << '\n' << run.err;
+    }
+    EXPECT_EQ(folder.file_count(), 6U);
+}
+
+TEST(MakeCommand, SaysWhatIsWrong) {
+    const ScratchFolder folder;
+
+    const struct {
+        const char* arguments;
+        int exit_code;
+        const char* problem;
+    } wrong[] = {
+        {"make", 2, "say what to make; 'vera make --list' shows what there is"},
+        {"make fucus -o a.vera", 2, "unknown command 'fucus'; did you mean 'ficus'?"},
+        {"make balls --sise 3 -o a.vera",
+         2,
+         "unknown option '--sise'; did you mean '--size'? ('vera make balls --help'"},
+        {"make balls --size 99 -o a.vera",
+         2,
+         "size of balls is 99, but must be a whole number from 0 to 12"},
+        {"make balls --size x -o a.vera", 2, "--size"},
+        {"make balls", 2, "--output is required"},
+        {"make balls -o a.png",
+         2,
+         "'a.png' is no name of a scene text; take one that ends in .vera"},
+        {"make balls -o gone/a.vera", 3, "gone/a.vera"},
+        {"make surface u v \"2 * sine(u)\" -o a.vera",
+         1,
+         "Z:1:5: error: there is no 'sine'; did you mean 'sin'?\n    2 * sine(u)\n        ^~~~"},
+        {"make surface u v 1/u --u -1 1 -o a.vera", 1, "near u ="},
+        {"make surface u v u*v --u 1 1 -o a.vera", 2, "--u goes from 1 to 1"},
+        {"make surface u v u --let u=1 -o a.vera",
+         1,
+         "--let:1:1: error: 'u' has a meaning already"},
+        {"make surface u v \"sin(99*u)\" --deviation 1e-9 -o a.vera",
+         1,
+         "triangles, and 2000000 are allowed"},
+        {"make surface u v u --deviation 1 --pixels 1 -o a.vera", 2, "exclude each other"},
+        {"make surface u v u --deviation -1 -o a.vera", 2, "--deviation"},
+    };
+
+    for (const auto& [arguments, exit_code, problem] : wrong) {
+        const ProgramRun run = run_vera(folder, arguments);
+        EXPECT_EQ(run.exit_code, exit_code) << arguments << '\n' << run.err;
+        EXPECT_TRUE(holds(run.err, problem)) << arguments << '\n' << run.err;
+    }
+    EXPECT_EQ(folder.file_count(), 0U);
+}
+
+} // namespace
+} // namespace vera
