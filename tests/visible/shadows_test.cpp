@@ -601,6 +601,17 @@ TEST(Shadows, AreNotThrownByWhatLetsLightThrough) {
     EXPECT_EQ(unlit_area(drawn, 0, 0), 0);
 }
 
+/// Whether the view's light reaches the face there, if it is the same some steps around.
+std::optional<bool>
+is_lit_around(const ShadowsByUnion::View& view, std::uint32_t source, const NearnessPlace& place) {
+    std::set<std::optional<bool>> found;
+    constexpr double off = 40;
+    for (const auto& [x, y] :
+         {std::pair{0.0, 0.0}, {off, off}, {-off, off}, {off, -off}, {-off, -off}})
+        found.insert(view.is_lit(source, {place.x + x, place.y + y}));
+    return found.size() == 1 ? *found.begin() : std::nullopt;
+}
+
 TEST(Shadows, AreThoseOfTheConstructOfTheText) {
     int compared = 0;
     int unlit = 0;
@@ -619,24 +630,17 @@ TEST(Shadows, AreThoseOfTheConstructOfTheText) {
                 const NearnessPlace place = {
                     std::uniform_real_distribution(0.0, 1.0 * screen_size)(random),
                     std::uniform_real_distribution(0.0, 1.0 * screen_size)(random)};
-                const auto turns = testing::turns_about(drawn.map, place.x, place.y);
-                if (turns.size() != 1)
+                const auto region = region_at(drawn.map, place.x, place.y);
+                if (!region)
                     continue;
-                const VisibleMap::Region region = drawn.map.regions[turns.begin()->first];
-                // The same some steps around.
-                std::set<std::optional<bool>> found;
-                constexpr double off = 40;
-                for (const auto& [x, y] :
-                     {std::pair{0.0, 0.0}, {off, off}, {-off, off}, {off, -off}, {-off, -off}})
-                    found.insert(view.is_lit(region.source, {place.x + x, place.y + y}));
-                if (found.size() != 1 || !*found.begin()
-                    || !by_union.faces(region.source, place, position))
+                const auto is_lit = is_lit_around(view, region->source, place);
+                if (!is_lit || !by_union.faces(region->source, place, position))
                     continue;
                 ++compared;
-                const bool is_unlit = (region.unlit >> light & 1U) != 0;
+                const bool is_unlit = contains(region->unlit, light);
                 unlit += is_unlit ? 1 : 0;
-                EXPECT_EQ(!is_unlit, **found.begin()) << "scene " << seed << " light " << light
-                                                      << " at " << place.x << " " << place.y;
+                EXPECT_EQ(!is_unlit, *is_lit) << "scene " << seed << " light " << light << " at "
+                                              << place.x << " " << place.y;
             }
         }
     }
