@@ -3,7 +3,7 @@
 """Runs the commands of the documents, and checks that their links lead somewhere.
 
 In blocks fenced as sh, the lines that begin with "vera" or "./dev help" are run, in order, file by file, each
-file in a new folder that holds scenes/ and dev. A command whose pictures would take long is run with a small
+file in a new folder that holds scenes/ and dev. Pictures and drawings that say no size are made with a small
 raster. A line that ends in "# exit N" must exit with N, others with 0. Other lines are not run. Blocks fenced
 as vera are whole scenes, in which "vera check" must find no error.
 
@@ -72,7 +72,7 @@ def check_scenes(path, program):
 
 def small(command):
     """The command with a small picture, where it says no size itself."""
-    if re.match(r"vera render\b", command) and not re.search(r"--raster|--help", command):
+    if re.match(r"vera (render|draw)\b", command) and not re.search(r"--raster|--help", command):
         first, *rest = re.split(r"(\s[|>&;])", command, maxsplit=1)
         return first + SMALL + "".join(rest)
     return command

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "interrupt.h"
 #include "messages.h"
@@ -183,7 +184,7 @@ std::string level_text(const GridCells& cells, std::size_t number) {
 }
 
 std::string hex(Color color) {
-    const auto byte = [](double value) { return static_cast<int>(255 * value + 0.5); };
+    const auto byte = [](double value) { return std::lround(255 * value); };
     return fmt::format("#{:02x}{:02x}{:02x}", byte(color.r), byte(color.g), byte(color.b));
 }
 
