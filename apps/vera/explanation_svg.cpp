@@ -69,7 +69,7 @@ std::string css(Color color) {
 
 /// The points of a stroke, its arcs as short pieces.
 std::vector<DrawingPoint> points_of(const Stroke& stroke) {
-    constexpr double degrees_a_piece = 6;
+    constexpr double degrees_a_piece = 2;
     std::vector<DrawingPoint> points;
     auto arc = stroke.arcs.begin();
     for (std::size_t i = 0; i < stroke.points.size(); ++i) {
@@ -295,7 +295,8 @@ void RayDrawing::add_lights() {
 
 void RayDrawing::add_eye() {
     const DrawingPoint at = view_.on_picture(lines_.front().from);
-    if (std::isfinite(of_.tree.nodes.front().ray.ray.t_min)) {
+    const bool has_point = std::isfinite(of_.tree.nodes.front().ray.ray.t_min);
+    if (has_point) {
         put(R"(<path d="M{:.1f} {:.1f}q12 -13 24 0q-12 13 -24 0z" fill="#ffffff" )"
             R"(stroke="#000000" stroke-width="1.5"/>)",
             at.x - 12,
@@ -303,9 +304,10 @@ void RayDrawing::add_eye() {
         put(R"(<circle cx="{:.1f}" cy="{:.1f}" r="3.5"/>)", at.x, at.y);
     }
     taken_.push_back(at);
-    put(R"(<text x="{:.1f}" y="{:.1f}" text-anchor="middle">view point</text>)",
+    put(R"(<text x="{:.1f}" y="{:.1f}" text-anchor="middle">{}</text>)",
         std::clamp(at.x, 60.0, picture_width - 60.0),
-        view_.on_picture(lines_.front().to).y > at.y + 40 ? at.y - 16 : at.y + 24);
+        view_.on_picture(lines_.front().to).y > at.y + 40 ? at.y - 16 : at.y + 24,
+        has_point ? "view point" : "from the viewer");
 }
 
 void RayDrawing::add_numbers() {
