@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "reference/faces.h"
 
@@ -29,9 +30,9 @@ Value filtered(Vector filter, const Value& value) {
 
 class Tracer {
 public:
-    Tracer(const Scene& scene, const PictureSettings& settings)
+    Tracer(const Scene& scene, PictureSettings settings)
         : scene_(scene)
-        , settings_(settings)
+        , settings_(std::move(settings))
         , faces_(faces_of(scene)) {}
 
     /// "Pixel (i, j) of a W x H raster, j counted from the top, sees through
