@@ -16,7 +16,8 @@ TEST(Program, TellsItsVersion) {
 
 TEST(Program, HelpsOnItselfAndEveryCommandWithExamples) {
     const ScratchFolder folder;
-    for (const char* arguments : {"--help", "render --help", "check --help", "info --help", "ladder --help"}) {
+    for (const char* arguments :
+         {"--help", "render --help", "check --help", "info --help", "ladder --help"}) {
         const ProgramRun run = run_vera(folder, arguments);
         EXPECT_EQ(run.exit_code, 0) << arguments;
         EXPECT_NE(run.out.find("Examples:"), std::string::npos) << arguments;
