@@ -69,7 +69,8 @@ int main(int count, char** names) {
     }
     const std::vector<float> original = seen(names[1]);
     const auto color = [](const std::vector<float>& samples, std::size_t i) {
-        return oklab(LinearRgb{samples[i], samples[i + 1], samples[i + 2]});
+        const auto light = [&](std::size_t c) { return static_cast<double>(samples[i + c]); };
+        return oklab(LinearRgb{light(0), light(1), light(2)});
     };
     for (int k = 2; k < count; ++k) {
         const std::vector<float> picture = seen(names[k]);
@@ -78,7 +79,8 @@ int main(int count, char** names) {
         double sum = 0;
         for (std::size_t i = 0; i < original.size(); i += 3)
             sum += std::sqrt(squared_distance(color(original, i), color(picture, i)));
-        fmt::print("{:.3f}\n", 100 * sum / static_cast<double>(original.size() / 3));
+        const std::size_t pixels = original.size() / 3;
+        fmt::print("{:.3f}\n", 100 * sum / static_cast<double>(pixels));
     }
     return 0;
 }
