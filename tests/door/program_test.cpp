@@ -17,8 +17,16 @@ TEST(Program, TellsItsVersion) {
 TEST(Program, HelpsOnItselfAndEveryCommandWithExamples) {
     const ScratchFolder folder;
     for (const char* arguments :
-         {"--help", "render --help", "draw --help", "check --help", "info --help", "explain --help", "ladder --help",
-          "make --help", "convert --help", "solve --help"}) {
+         {"--help",
+          "render --help",
+          "draw --help",
+          "check --help",
+          "info --help",
+          "explain --help",
+          "ladder --help",
+          "make --help",
+          "convert --help",
+          "solve --help"}) {
         const ProgramRun run = run_vera(folder, arguments);
         EXPECT_EQ(run.exit_code, 0) << arguments;
         EXPECT_NE(run.out.find("Examples:"), std::string::npos) << arguments;
