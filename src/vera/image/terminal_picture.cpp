@@ -6,6 +6,7 @@
 #include "vera/image/oklab.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <type_traits>
 
@@ -80,12 +81,12 @@ std::string base64(const std::uint8_t* bytes, std::size_t size) {
 
 PictureSize fitted_size(const Image& image, std::size_t most_width, std::size_t most_height) {
     VERA_CHECK(image.width > 0 && image.height > 0 && most_width > 0 && most_height > 0);
-    const double width = static_cast<double>(image.width);
-    const double height = static_cast<double>(image.height);
+    const auto width = static_cast<double>(image.width);
+    const auto height = static_cast<double>(image.height);
     const double scale = std::min(
         {1.0, static_cast<double>(most_width) / width, static_cast<double>(most_height) / height});
     const auto scaled = [scale](double side) {
-        return std::max<std::size_t>(static_cast<std::size_t>(scale * side + 0.5), 1);
+        return std::max<std::size_t>(static_cast<std::size_t>(std::lround(scale * side)), 1);
     };
     return {scaled(width), scaled(height)};
 }
