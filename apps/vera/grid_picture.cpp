@@ -29,8 +29,9 @@ constexpr std::uint32_t most_levels = 64;
 constexpr std::size_t most_cells = 30'000;
 /// Of a block, by its cell: what is left free tells neighbours apart.
 constexpr double block_part = 0.84;
-/// On the walls of the frame, a grid of more lines than this is not shown.
-constexpr int most_lines = 120;
+/// On the walls of the frame, more lines than this are not shown: they would be a grey, and cutting
+/// bars where they cross takes long.
+constexpr int most_lines = 32;
 constexpr double legend_line = 22; ///< in pixels
 constexpr double legend_margin = 14;
 
