@@ -30,7 +30,7 @@ ScreenCounts counts_of(const ScreenScene& scene) {
 }
 
 double raster_bytes(const ScreenCounts& counts) {
-    constexpr double per_surface = 260; // with 1 to 4 cells, of which shadows ask for none
+    constexpr double per_surface = 290; // with 1.5 to 6 cells, of which shadows ask for none
     constexpr double per_shadow = 170;
     constexpr double per_edge = 34;
     constexpr double per_vertex = 8;
