@@ -189,10 +189,20 @@ std::string hex(Color color) {
     return fmt::format("#{:02x}{:02x}{:02x}", byte(color.r), byte(color.g), byte(color.b));
 }
 
-/// What the colours mean, below a drawing that is so high.
-std::string legend(const GridCells& cells, double top) {
-    std::string svg = "<g id=\"legend\" font-family=\"Helvetica, Arial, 'Liberation Sans', "
-                      "sans-serif\" font-size=\"13\" fill=\"#333\">\n";
+/// What the colours mean, below a drawing of that size.
+std::string legend(const GridCells& cells, double width, double top) {
+    std::size_t longest = 1;
+    for (std::size_t i = 0; i < cells.levels.size(); ++i)
+        longest = std::max(longest, level_text(cells, i).size());
+    // Letters of these fonts are half as wide as high, a little more in some.
+    const double font_size = std::clamp(
+        std::floor((width - legend_margin - 58) / (0.56 * static_cast<double>(longest))),
+        6.0,
+        13.0);
+    std::string svg = fmt::format(
+        "<g id=\"legend\" font-family=\"Helvetica, Arial, 'Liberation Sans', "
+        "sans-serif\" font-size=\"{}\" fill=\"#333\">\n",
+        font_size);
     double y = top + legend_margin;
     for (std::size_t i = 0; i < cells.levels.size(); ++i, y += legend_line) {
         for (std::size_t tone = 0; tone < tones.size(); ++tone)
@@ -229,12 +239,13 @@ void draw_grid(
     Drawing drawing =
         draw_scene(picture, *picture.camera, settings, draw, progress, &console.cancel).drawing;
     drawing.title = "Tree of grids";
+    const double width = drawing.width;
     const double top = drawing.height;
     drawing.height +=
         2 * legend_margin + legend_line * static_cast<double>(cells.levels.size() + 1);
     std::string bytes;
     write_svg(drawing, {.precision = 0.1}, bytes, {}, &console.cancel);
-    bytes.insert(bytes.rfind("</svg>"), legend(cells, top));
+    bytes.insert(bytes.rfind("</svg>"), legend(cells, width, top));
     file.write(bytes);
 }
 
