@@ -34,8 +34,8 @@ bool may_cover_a_cell(const std::array<ScreenVertex, 3>& corners, const Cells& c
 }
 
 int shift_for(std::size_t triangles) {
-    // One and a half to six cells a triangle. With more, edges are compared with less, and the lists
-    // take longer to make: scattered triangles would take more, closed bodies fewer.
+    // One and a half to six cells a triangle. With more, edges are compared with less, and the
+    // lists take longer to make: scattered triangles would take more, closed bodies fewer.
     int bits = 1;
     const double least = 1.5 * static_cast<double>(triangles);
     while (bits < screen_bits - 4 && std::ldexp(1.0, 2 * bits) < least)

@@ -77,9 +77,8 @@ DrawnFirmament drawn_firmament(
     const HalfPlane below = {{-above.normal.x, -above.normal.y}, -above.reach};
     PaintedRegion region;
     region.outline.id = region.outline.group = "sky";
-    region.rings = firmament.profile
-        ? sky_outline(camera, *firmament.profile, width, height)
-        : cut_rings(frame, above);
+    region.rings = firmament.profile ? sky_outline(camera, *firmament.profile, width, height)
+                                     : cut_rings(frame, above);
     const bool shows_earth = firmament.profile ? !is_whole(region.rings, frame.front())
                                                : !cut_rings(frame, below).empty();
     if (!region.rings.empty())
