@@ -6,8 +6,10 @@
 #include "vera/solids/solid_findings.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <span>
+#include <string>
 #include <utility>
 
 #include "command.h"
@@ -22,6 +24,15 @@
 namespace vera {
 
 namespace {
+
+/// As git writes it and `patch -p1` and `git apply` read it. An absolute path stays as it is.
+std::string diff_name(const char* side, const std::string& path) {
+    const std::filesystem::path normal = std::filesystem::path(path).lexically_normal();
+    const std::string name =
+        normal.is_absolute() ? normal.string() : fmt::format("{}/{}", side, normal.string());
+    // A tab ends names that hold spaces.
+    return name.find(' ') == std::string::npos ? name : name + '\t';
+}
 
 struct Request {
     SceneRequest scene;
@@ -139,7 +150,12 @@ void fix_scene(
     const SceneFixes fixes = scene_fixes(prepared, findings, text.text());
     if (request.write.empty()) {
         fmt::print(
-            "{}", unified_diff(text.text(), fixes.edits, request.scene.path, request.scene.path));
+            "{}",
+            unified_diff(
+                text.text(),
+                fixes.edits,
+                diff_name("a", request.scene.path),
+                diff_name("b", request.scene.path)));
     } else {
         OutputFile file(request.write);
         file.write(edited(text.text(), fixes.edits));
@@ -216,7 +232,7 @@ void add_check_command(CLI::App& app, Console& console) {
                   "Examples:\n"
                   "  vera check scene.vera\n"
                   "  vera check scene.vera --strict\n"
-                  "  vera check scene.vera --fix | patch\n"
+                  "  vera check scene.vera --fix | patch -p1\n"
                   "  vera check scene.vera --fix --write better.vera\n"
                   "  vera check scene.vera -c scene.ctl --json");
 

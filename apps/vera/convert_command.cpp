@@ -33,7 +33,7 @@ constexpr double delay_by_default = 10;
 struct Request {
     std::vector<std::string> paths; ///< pictures to read, and at the end what to write
     std::string format;
-    double colors = 0;
+    std::optional<double> colors;
     std::string palette;
     std::optional<Dither> dither;
     bool palette_for_all = false;
@@ -48,7 +48,7 @@ struct Request {
 
     std::vector<std::string> inputs() const { return {paths.begin(), paths.end() - 1}; }
 
-    bool is_reduced() const { return colors != 0 || !palette.empty(); }
+    bool is_reduced() const { return colors || !palette.empty(); }
 };
 
 /// What is written: a GIF, or one of the formats that hold any colours.
@@ -115,7 +115,7 @@ void check_output(const Request& request, const Format& format) {
 
 /// That what reduces colours goes together, and into the format.
 void check_colors(const Request& request, const Format& format) {
-    if (request.colors != 0 && !request.palette.empty())
+    if (request.colors && !request.palette.empty())
         throw CommandLineError(
             "--colors chooses colours and --palette names them; give one of them");
     if (!request.is_reduced() && !format.is_gif() && (request.dither || request.palette_for_all))
@@ -176,7 +176,7 @@ Palette chosen_palette(const Request& request, const std::vector<const PictureSo
         source->add_to(histogram);
     constexpr std::size_t most_colors = 256;
     return optimal_palette(
-        histogram, request.colors == 0 ? most_colors : static_cast<std::size_t>(request.colors));
+        histogram, request.colors ? static_cast<std::size_t>(*request.colors) : most_colors);
 }
 
 /// The picture in a palette's colours, as it is asked for; source and progress must outlive it.
@@ -338,8 +338,8 @@ void convert(const Request& request, const Console& console) {
         throw CommandLineError(
             "convert takes the picture to read and the one to write, as in a.exr b.png");
     const Format format = output_format(request);
-    if (request.colors != 0)
-        whole_of("--colors", request.colors, 2, 256);
+    if (request.colors)
+        whole_of("--colors", *request.colors, 2, 256);
     number_of("--exposure", request.exposure, -20, 20);
     write_settings(request, format);
     check_output(request, format);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/base/output_file.h"
+#include "vera/drawing/drawing_file.h"
 #include "vera/render/raster.h"
 
 #include <optional>
@@ -63,8 +64,12 @@ void explain(const Request& request, const Console& console) {
     const std::uint32_t x = whole_of("X", request.x, 0, settings.width - 1);
     const std::uint32_t y = whole_of("Y", request.y, 0, settings.height - 1);
     std::optional<OutputFile> svg;
-    if (!request.svg.empty())
+    if (!request.svg.empty()) {
+        if (request.svg != "-" && drawing_format_from_extension(request.svg) != DrawingFormat::svg)
+            throw CommandLineError(
+                fmt::format("--svg writes SVG; found '{}'; name it as in rays.svg", request.svg));
         svg.emplace(request.svg);
+    }
 
     const CancellableWork work;
     std::unique_ptr<RayIndex> index;

@@ -257,14 +257,15 @@ bool is_drawing(const std::string& path) {
 
 void add_grid_picture_options(CLI::App& command, GridPictureRequest& request) {
     const char* const group = "Picture of the tree of grids";
-    command
-        .add_option(
-            "--draw-grid",
-            request.path,
-            "draw the cells of the tree that hold something, each level in its colour, to an SVG "
-            "with a legend, or a PNG")
-        ->type_name("PICTURE")
-        ->group(group);
+    CLI::Option* const picture =
+        command
+            .add_option(
+                "--draw-grid",
+                request.path,
+                "draw the cells of the tree that hold something, each level in its colour, to an "
+                "SVG with a legend, or a PNG")
+            ->type_name("PICTURE")
+            ->group(group);
     command
         .add_option(
             "--grid-from",
@@ -272,6 +273,7 @@ void add_grid_picture_options(CLI::App& command, GridPictureRequest& request) {
             "the first level that is shown; those above it may hide what is in them")
         ->type_name("N")
         ->capture_default_str()
+        ->needs(picture)
         ->group(group);
     command
         .add_option(
@@ -280,6 +282,7 @@ void add_grid_picture_options(CLI::App& command, GridPictureRequest& request) {
             "how deep it is looked into; less where that were more than 30000 cells")
         ->type_name("N")
         ->capture_default_str()
+        ->needs(picture)
         ->group(group);
     command
         .add_option(
@@ -288,6 +291,7 @@ void add_grid_picture_options(CLI::App& command, GridPictureRequest& request) {
             "part of the depth that is cut away in front, to look inside: from 0 to 0.95")
         ->type_name("X")
         ->capture_default_str()
+        ->needs(picture)
         ->group(group);
 }
 

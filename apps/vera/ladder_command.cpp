@@ -85,6 +85,9 @@ class OutputFolder {
 public:
     OutputFolder(const fs::path& path, bool overwrite)
         : path_(path) {
+        if (path == "-")
+            throw CommandLineError("a ladder is a folder of pictures: standard output cannot take "
+                                   "it; name a folder, as in -o steps");
         const fs::file_status status = fs::status(path);
         if (!fs::exists(status)) {
             make();

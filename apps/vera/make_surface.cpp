@@ -94,6 +94,11 @@ void make_surface(const Request& request, const Console& console) {
     if (request.pixels && request.output.bare)
         throw CommandLineError(
             "--pixels needs the camera that --bare leaves out; give --deviation");
+    if (request.deviation)
+        number_of("--deviation", *request.deviation, 1e-100, 1e100);
+    if (request.pixels)
+        number_of("--pixels", *request.pixels, 1e-9, 1e9);
+    whole_of("--most-triangles", request.most_triangles, 100, 100'000'000);
     const Surface surface = surface_of(request);
     const Affine3 placement = request.z_up ? z_up_to_y_up() : Affine3{};
     const Box3 box = sampled_bounds(surface);
@@ -172,17 +177,14 @@ void add_make_surface(CLI::App& make, Console& console) {
             request->deviation,
             "length by which the triangles may lie off the surface; if not given, a 2000th of its "
             "size")
-        ->check(CLI::PositiveNumber.description(""))
         ->type_name("LENGTH");
     command
         ->add_option(
             "--pixels",
             request->pixels,
             "the same in pixels of the picture that the control file asks for, as 0.02")
-        ->check(CLI::PositiveNumber.description(""))
         ->type_name("P");
     command->add_option("--most-triangles", request->most_triangles, "refuse to make more")
-        ->check(CLI::Range(100.0, 1e8).description(""))
         ->type_name("N")
         ->capture_default_str();
     command->add_flag("--z-up", request->z_up, "the formulas' z is up");

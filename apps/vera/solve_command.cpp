@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
+#include <optional>
+#include <system_error>
 
 #include "command.h"
 #include "layer_sources.h"
@@ -30,8 +33,12 @@ struct Request {
     std::optional<double> exposure;
     std::vector<double> lights;
     bool ambient = false;
-    double least = 0;
-    double most = 1000;
+    std::optional<double> least;
+    std::optional<double> most;
+
+    double least_factor() const { return least.value_or(0); }
+
+    double most_factor() const { return most.value_or(1000); }
 };
 
 /// That the light there have this value.
@@ -229,13 +236,18 @@ void check(const Request& request) {
             "--exposure scales all light at once: give it alone, or --place and --mean");
     if (!has_wishes && !request.exposure)
         throw CommandLineError("say what is wanted: --place, --mean or --exposure");
-    if (request.exposure && (!request.lights.empty() || request.ambient))
-        throw CommandLineError(
-            "--exposure scales all light at once: leave out --lights and --ambient");
-    number_of("--least", request.least, 0, largest_factor);
-    number_of("--most", request.most, 0, largest_factor);
-    if (request.least > request.most)
+    if (request.exposure
+        && (!request.lights.empty() || request.ambient || request.least || request.most))
+        throw CommandLineError("--exposure scales all light at once: leave out --lights, "
+                               "--ambient, --least and --most");
+    number_of("--least", request.least_factor(), 0, largest_factor);
+    number_of("--most", request.most_factor(), 0, largest_factor);
+    if (request.least_factor() > request.most_factor())
         throw CommandLineError("--least must not be more than --most");
+    std::error_code none;
+    if (std::filesystem::equivalent(request.layers, request.output, none))
+        throw CommandLineError(fmt::format(
+            "'{}' holds the layers: name another file for the control text", request.output));
 }
 
 void solve(const Request& request, const Console& console) {
@@ -249,7 +261,7 @@ void solve(const Request& request, const Console& console) {
     } else {
         changed = free_sources(request, layers);
         const std::vector<Wish> wishes = wishes_of(request, layers);
-        factors = factors_for(wishes, changed, request.least, request.most);
+        factors = factors_for(wishes, changed, request.least_factor(), request.most_factor());
         print_wishes(wishes, factors, console);
     }
     print_factors(factors, changed, console);
@@ -299,12 +311,10 @@ void add_solve_command(CLI::App& app, Console& console) {
     command->add_option("--lights", request->lights, "the lights that may change, else all of them")
         ->type_name("N...");
     command->add_flag("--ambient", request->ambient, "AMBIENT may change too");
-    command->add_option("--least", request->least, "least factor of a light")
-        ->type_name("F")
-        ->capture_default_str();
-    command->add_option("--most", request->most, "largest factor of a light")
-        ->type_name("F")
-        ->capture_default_str();
+    command->add_option("--least", request->least, "least factor of a light, else 0")
+        ->type_name("F");
+    command->add_option("--most", request->most, "largest factor of a light, else 1000")
+        ->type_name("F");
     add_console_options(*command, console);
     command->footer(
         "The picture is not traced again: light adds up. Wishes are met as well as the\n"

@@ -156,8 +156,8 @@ TEST(CheckCommand, ProposesCorrectionsAsADiff) {
     EXPECT_EQ(run.exit_code, 0) << run.err;
     EXPECT_EQ(
         run.out,
-        "--- a.vera\n"
-        "+++ a.vera\n"
+        "--- a/a.vera\n"
+        "+++ b/a.vera\n"
         "@@ -1,20 +1,20 @@\n"
         " (* Without light. *)\n"
         "+LI -4.802 8.723 8  150.6  1 1 1\n"
@@ -186,6 +186,17 @@ TEST(CheckCommand, ProposesCorrectionsAsADiff) {
         " MA glass TAB 0.9 0.9 0.9 REF 1.5\n");
     EXPECT_NE(run.err.find("a.vera: corrects 5 findings\n"), std::string::npos) << run.err;
     EXPECT_EQ(folder.read("a.vera"), bad_scene);
+}
+
+TEST(CheckCommand, ProposesWhatPatchTakesInFoldersToo) {
+    const ScratchFolder folder;
+    std::filesystem::create_directories(folder.path() / "some models");
+    folder.write("some models/a.vera", bad_scene);
+    const ProgramRun run =
+        run_vera(folder, "check './some models/../some models/a.vera' --fix -q | patch -s -p1");
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_NE(folder.read("some models/a.vera"), bad_scene);
+    EXPECT_EQ(run_vera(folder, "check 'some models/a.vera' --fix").out, "");
 }
 
 TEST(CheckCommand, WritesACorrectedSceneInWhichNothingIsLeftToCorrect) {

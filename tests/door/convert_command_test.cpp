@@ -149,6 +149,9 @@ TEST_F(ConvertCommand, RunsTheExamplesOfItsHelp) {
 }
 
 TEST_F(ConvertCommand, RefusesWhatMakesNoSense) {
+    EXPECT_THAT(
+        refusal("a.png b.png --colors 0"),
+        HasSubstr("--colors takes a whole number from 2 to 256; found 0"));
     EXPECT_THAT(refusal("a.png"), HasSubstr("takes the picture to read and the one to write"));
     EXPECT_THAT(refusal("a.png b.xyz"), HasSubstr("give --format with one of png"));
     EXPECT_THAT(refusal("a.png b.gfi"), HasSubstr("did you mean 'b.gif'"));

@@ -166,6 +166,7 @@ TEST(ExplainCommand, RefusesPixelsThatThePictureDoesNotHave) {
         {"1.5 0", "X takes a whole number from 0 to 63; found 1.5"},
         {"-1 0", "X takes a whole number from 0 to 63; found -1"},
         {"5", "y is required"},
+        {"5 5 --svg rays.png", "--svg writes SVG; found 'rays.png'; name it as in rays.svg"},
     };
 
     for (const auto& [arguments, problem] : wrong) {

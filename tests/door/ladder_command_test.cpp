@@ -115,6 +115,9 @@ TEST(LadderCommand, KeepsOffFoldersThatItDidNotWrite) {
     const ProgramRun file = run_vera(folder, ladder + "a.vera");
     EXPECT_EQ(file.exit_code, 2);
     EXPECT_NE(file.err.find("is a file"), std::string::npos) << file.err;
+    const ProgramRun piped = run_vera(folder, ladder + "-");
+    EXPECT_EQ(piped.exit_code, 2);
+    EXPECT_NE(piped.err.find("standard output cannot take it"), std::string::npos) << piped.err;
     const ProgramRun nowhere = run_vera(folder, ladder + "no/where");
     EXPECT_EQ(nowhere.exit_code, 3);
     EXPECT_NE(nowhere.err.find("cannot make the folder 'no/where'"), std::string::npos)

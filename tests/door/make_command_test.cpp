@@ -95,7 +95,8 @@ TEST(MakeCommand, SaysWhatIsWrong) {
          1,
          "triangles, and 2000000 are allowed"},
         {"make surface u v u --deviation 1 --pixels 1 -o a.vera", 2, "exclude each other"},
-        {"make surface u v u --deviation -1 -o a.vera", 2, "--deviation"},
+        {"make surface u v u --deviation -1 -o a.vera", 2, "--deviation takes a number from"},
+        {"make surface u v u --deviation nan -o a.vera", 2, "--deviation takes a number from"},
     };
 
     for (const auto& [arguments, exit_code, problem] : wrong) {

@@ -150,6 +150,7 @@ TEST_F(SolveCommand, RefusesWhatItCannotSolve) {
     } wrong[] = {
         {"a.exr", "say what is wanted: --place, --mean or --exposure", 2},
         {"a.exr --exposure 0.5 --mean 0 0 1 1 1", "--exposure scales all light at once", 2},
+        {"a.exr --exposure 0.5 --most 2", "leave out --lights, --ambient, --least and --most", 2},
         {"a.exr --place 1 2 3", "--place takes five numbers, X Y R G B; found 3", 2},
         {"a.exr --place 48 2 1 1 1", "X of --place takes a whole number from 0 to 47", 2},
         {"a.exr --mean 40 0 9 1 1", "W of --mean takes a whole number from 1 to 8; found 9", 2},
@@ -167,6 +168,13 @@ TEST_F(SolveCommand, RefusesWhatItCannotSolve) {
         EXPECT_NE(run.err.find(problem), std::string::npos) << run.err;
         EXPECT_EQ(folder.read("x.ctl"), "") << arguments;
     }
+
+    const std::string layers = folder.read("a.exr");
+    const ProgramRun over = run_vera(folder, "solve a.exr -o ./a.exr --exposure 0.5");
+    EXPECT_EQ(over.exit_code, 2);
+    EXPECT_NE(over.err.find("'./a.exr' holds the layers: name another file"), std::string::npos)
+        << over.err;
+    EXPECT_EQ(folder.read("a.exr"), layers);
 }
 
 } // namespace

@@ -175,10 +175,11 @@ Scene make_terrain(const ParameterValues& values) {
         values.whole("detail"), values["roughness"], values.whole("seed"), 0.35);
     // The field's heights are of its width; land is flatter.
     constexpr double flat = 0.55;
+    const double lowest = field.lowest();
     HeightField land_field = field;
     for (std::size_t z = 0; z <= field.side(); ++z)
         for (std::size_t x = 0; x <= field.side(); ++x)
-            land_field.at(x, z) = flat * (field.height(x, z) - field.lowest());
+            land_field.at(x, z) = flat * (field.height(x, z) - lowest);
     const double highest = land_field.highest();
     Scene scene;
     Land land = {};
