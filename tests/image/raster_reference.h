@@ -13,17 +13,13 @@ namespace vera::reference {
 class TileReader {
 public:
     TileReader(
-        const detail::TileStreams& streams,
-        detail::TileShape shape,
-        int channels,
-        int sample_bytes,
-        int largest_error)
+        const detail::TileStreams& streams, detail::TileShape shape, int channels, int sample_bytes)
         : streams_(streams)
         , width_(static_cast<int>(shape.width))
         , pixels_(static_cast<int>(shape.pixels()))
         , channels_(channels)
         , sample_bytes_(sample_bytes)
-        , step_(2 * largest_error + 1) {}
+        , step_(2 * static_cast<int>(streams.error) + 1) {}
 
     /// Nothing where the streams end too early or too late, or a run leaves the tile.
     std::optional<std::vector<int>> samples() {
@@ -114,7 +110,15 @@ private:
         }
         const std::vector<int> wanted = steps(command);
         for (int c = 0; c < channels_; ++c)
-            put(prediction(here, c) + wanted[static_cast<std::size_t>(c)] * step_);
+            put_step(prediction(here, c), wanted[static_cast<std::size_t>(c)]);
+    }
+
+    void put_step(int prediction, int steps) {
+        const int range = sample_bytes_ == 1 ? 256 : 65536;
+        if (step_ == 1)
+            put((prediction + steps + 2 * range) % range);
+        else
+            put(prediction + steps * step_);
     }
 
     int run_length(int code) {

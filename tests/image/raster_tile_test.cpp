@@ -74,9 +74,7 @@ void code_and_compare(unsigned seed) {
     TileStreams streams;
     ASSERT_TRUE(unpack(bytes, sizeof(Sample) * shape.pixels(), streams));
     const auto expected =
-        reference::TileReader(
-            streams, shape, static_cast<int>(channels), sizeof(Sample), static_cast<int>(error))
-            .samples();
+        reference::TileReader(streams, shape, static_cast<int>(channels), sizeof(Sample)).samples();
     ASSERT_TRUE(expected);
     for (std::size_t i = 0; i < samples.size(); ++i)
         ASSERT_EQ(decoded[i], (*expected)[i]) << i;
@@ -136,15 +134,12 @@ TEST(RasterTile, DecodesAnyStreamsAsTheReferenceDoesOrRefusesThem) {
             static_cast<std::size_t>(1 + below(random, 5)),
             static_cast<std::size_t>(1 + below(random, 4))};
         const std::size_t channels = random() % 2 == 0 ? 1 : 3;
-        const TileStreams streams = some_streams(shape, channels, random);
-        const auto error = static_cast<unsigned>(below(random, 3));
+        TileStreams streams = some_streams(shape, channels, random);
+        streams.error = static_cast<unsigned>(below(random, 3));
         const auto expected =
-            reference::TileReader(
-                streams, shape, static_cast<int>(channels), 1, static_cast<int>(error))
-                .samples();
+            reference::TileReader(streams, shape, static_cast<int>(channels), 1).samples();
         std::vector<std::uint8_t> decoded;
-        const bool good =
-            decode_tile<std::uint8_t>(packed(streams), shape, channels, error, decoded);
+        const bool good = decode_tile<std::uint8_t>(packed(streams), shape, channels, 2, decoded);
         ASSERT_EQ(good, expected.has_value()) << seed;
         if (!good)
             continue;
@@ -163,6 +158,53 @@ TEST(RasterTile, RefusesBytesThatEndEarly) {
     std::vector<std::uint8_t> decoded;
     for (std::size_t size = 0; size < bytes.size(); ++size)
         ASSERT_FALSE(decode_tile<std::uint8_t>(std::span(bytes).first(size), shape, 3, 0, decoded));
+}
+
+TEST(RasterTile, RefusesAnErrorThatIsLargerThanAllowed) {
+    const TileShape shape = {1, 1};
+    TileStreams streams;
+    streams.error = 2;
+    streams.commands = {177};
+    std::vector<std::uint8_t> decoded;
+    EXPECT_TRUE(decode_tile<std::uint8_t>(packed(streams), shape, 3, 2, decoded));
+    EXPECT_FALSE(decode_tile<std::uint8_t>(packed(streams), shape, 3, 1, decoded));
+}
+
+/// A small pattern of few values, again and again.
+std::vector<std::uint8_t> pattern(TileShape shape, std::size_t channels, Random& random) {
+    const auto across = static_cast<std::size_t>(2 + below(random, 15));
+    const auto down = static_cast<std::size_t>(1 + below(random, 16));
+    const int spread = 2 + below(random, 60);
+    std::vector<std::uint8_t> cell;
+    for (std::size_t i = 0; i < channels * across * down; ++i)
+        cell.push_back(static_cast<std::uint8_t>(below(random, spread)));
+    std::vector<std::uint8_t> samples;
+    for (std::size_t y = 0; y < shape.height; ++y)
+        for (std::size_t x = 0; x < shape.width; ++x)
+            for (std::size_t c = 0; c < channels; ++c)
+                samples.push_back(cell[channels * (y % down * across + x % across) + c]);
+    return samples;
+}
+
+TEST(RasterTile, IsNeverLargerWithAnErrorThanWithout) {
+    Random random(11);
+    int exact = 0;
+    for (int round = 0; round < 100; ++round) {
+        const TileShape shape = {
+            static_cast<std::size_t>(20 + below(random, 60)),
+            static_cast<std::size_t>(20 + below(random, 60))};
+        const std::size_t channels = random() % 3 == 0 ? 1 : 3;
+        const auto samples = pattern(shape, channels, random);
+        const auto largest = encoded_tile<std::uint8_t>(samples, shape, channels, 0).size();
+        for (const unsigned error : {1U, 2U, 5U}) {
+            const auto bytes = encoded_tile<std::uint8_t>(samples, shape, channels, error);
+            ASSERT_LE(bytes.size(), largest) << round << ' ' << error;
+            exact += bytes.front() == std::byte{0} ? 1 : 0;
+        }
+    }
+    // Both ways are taken.
+    EXPECT_GT(exact, 20);
+    EXPECT_LT(exact, 280);
 }
 
 TEST(RasterTile, TakesOneRunForOneColourAndForRowsThatAreEqual) {

@@ -112,7 +112,6 @@ std::vector<Oklab> means_of_boxes(std::vector<Entry>& entries, std::size_t most_
 
 /// Lloyd's: each colour becomes the mean of what is nearest to it, some times.
 void improve(std::vector<Oklab>& colors, std::span<const Entry> entries) {
-    // The error falls by less than a thousandth a round after ten.
     constexpr int rounds = 12;
     for (int round = 0; round < rounds; ++round) {
         std::vector<Moments> nearest(colors.size());

@@ -1,51 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "vera/image/raster_pixel.h"
 #include "vera/image/raster_tile.h"
 
 #include <algorithm>
 #include <cstring>
-#include <type_traits>
 
 namespace vera::detail {
 
 namespace {
 
-/// What holds a sample and differences of samples.
-template <typename Sample>
-using Wide = std::conditional_t<sizeof(Sample) == 1, std::int16_t, std::int32_t>;
+/// So many samples behind a tile's last may be written: what is copied goes in pieces.
+constexpr std::size_t room_behind = 64;
 
-/// A pixel in a register of 16 bytes, which every processor of 64 bits has: its samples, and lanes
-/// that mean nothing. Vectors of the compiler, not Highway's, whose smallest x86 has SSSE3.
-template <typename Sample>
-constexpr std::size_t lanes = 16 / sizeof(Wide<Sample>);
-
-template <typename Sample>
-struct Vectors {
-    using Pixel [[gnu::vector_size(16)]] = Wide<Sample>;
-    using Narrow
-        [[gnu::vector_size(lanes<Sample> * sizeof(Sample)), gnu::aligned(1), gnu::may_alias]] =
-            Sample;
-};
-
-template <typename Pixel>
-Pixel lesser(Pixel a, Pixel b) {
-    return a < b ? a : b;
-}
-
-template <typename Pixel>
-Pixel greater(Pixel a, Pixel b) {
-    return a < b ? b : a;
-}
-
-template <typename Sample>
-using Differences = std::array<Wide<Sample>, lanes<Sample>>;
+template <typename Pixels>
+using Differences = std::array<typename Pixels::Lane, Pixels::lanes>;
 
 /// The differences that the commands below small_end stand for, in samples.
-template <typename Sample, std::size_t Channels>
-std::array<Differences<Sample>, small_end> small_differences(int step) {
-    std::array<Differences<Sample>, small_end> table = {};
+template <typename Pixels, std::size_t Channels>
+std::array<Differences<Pixels>, small_end> small_differences(int step) {
+    std::array<Differences<Pixels>, small_end> table = {};
     for (int command = 0; command < small_end; ++command) {
-        Differences<Sample>& differences = table[static_cast<std::size_t>(command)];
-        const auto scaled = [step](int steps) { return static_cast<Wide<Sample>>(steps * step); };
+        Differences<Pixels>& differences = table[static_cast<std::size_t>(command)];
+        const auto scaled = [step](int steps) {
+            return static_cast<typename Pixels::Lane>(steps * step);
+        };
         if constexpr (Channels == 1) {
             differences[0] = scaled(command - small_end / 2);
         } else {
@@ -59,21 +37,17 @@ std::array<Differences<Sample>, small_end> small_differences(int step) {
     return table;
 }
 
-template <typename Sample, std::size_t Channels>
+template <typename Sample, std::size_t Channels, typename Pixels>
 class TileDecoder {
 public:
     TileDecoder(
-        const TileStreams& streams,
-        TileShape shape,
-        unsigned largest_error,
-        Sample* samples,
-        std::vector<ColorRun>* runs)
+        const TileStreams& streams, TileShape shape, Sample* samples, std::vector<ColorRun>* runs)
         : streams_(streams)
         , samples_(samples)
         , row_(Channels * shape.width)
         , end_(Channels * shape.pixels())
-        , step_(static_cast<int>(2 * largest_error + 1))
-        , small_(small_differences<Sample, Channels>(step_))
+        , step_(static_cast<int>(2 * streams.error + 1))
+        , small_(small_differences<Pixels, Channels>(step_))
         , runs_(runs) {}
 
     bool decode() {
@@ -97,8 +71,7 @@ public:
     }
 
 private:
-    using Pixel = typename Vectors<Sample>::Pixel;
-    using Narrow = typename Vectors<Sample>::Narrow;
+    using Pixel = typename Pixels::Pixel;
 
     bool values_used() const {
         for (std::size_t c = 0; c < Channels; ++c)
@@ -107,94 +80,93 @@ private:
         return true;
     }
 
-    static Pixel load(const Sample* samples) {
-        return __builtin_convertvector(*reinterpret_cast<const Narrow*>(samples), Pixel);
-    }
-
-    /// Writes over what stands behind the pixel: that comes later, or lies behind the last.
-    static void store(Pixel pixel, Sample* sample) {
-        const auto narrow = __builtin_convertvector(pixel, Narrow);
-        std::memcpy(sample, &narrow, sizeof narrow);
-    }
-
-    /// Where there is a neighbour to the left and one above, or only one, or none.
-    Pixel predicted_pixel() const {
-        const Sample* sample = samples_ + at_;
-        if (at_ == 0)
-            return Pixel{};
-        if (at_ < row_)
-            return load(sample - Channels);
-        return load(sample - row_);
-    }
-
     /// Pixels of which each has its differences, up to the end of the row; null where the bytes are
     /// damaged. Here most pixels of a picture of smooth shades are decoded.
     const std::uint8_t* decode_pixels(const std::uint8_t* command, const std::uint8_t* last) {
-        const bool edge = at_ < row_ || at_ == row_start_;
-        const std::size_t rest = edge ? 1 : (row_start_ + row_ - at_) / Channels;
+        if (at_ < row_ || at_ == row_start_)
+            return decode_at_edge(*command) ? command + 1 : nullptr;
+        const std::size_t rest = (row_start_ + row_ - at_) / Channels;
         const std::uint8_t* const stop =
             command + std::min(rest, static_cast<std::size_t>(last - command));
+        // What is written here might be this class's own, as far as the compiler knows.
+        const std::size_t row = row_;
         Sample* sample = samples_ + at_;
-        const Sample* above = sample - row_;
-        Pixel left{};
-        Pixel corner = left;
-        if (!edge) {
-            left = load(sample - Channels);
-            corner = load(above - Channels);
-        }
+        Pixel left = Pixels::load(sample - Channels);
+        Pixel above_left = Pixels::load(sample - row - Channels);
         for (; command != stop && *command < first_run_command; ++command) {
-            Pixel prediction = left;
-            if (edge) {
-                prediction = predicted_pixel();
-            } else {
-                const Pixel up = load(above);
-                const Pixel plane = left + (up - corner);
-                prediction = greater(lesser(plane, greater(left, up)), lesser(left, up));
-                corner = up;
-            }
-            Pixel difference;
-            if (*command < small_end)
-                std::memcpy(&difference, small_[*command].data(), sizeof difference);
-            else if (!take_difference(*command, difference, prediction))
+            const Pixel above = Pixels::load(sample - row);
+            if (!take_pixel(*command, left, [&](Pixel difference) {
+                    return Pixels::next(left, above, above_left, difference);
+                }))
                 return nullptr;
-            left = lesser(greater(prediction + difference, Pixel{}), Pixel{} + full_scale);
-            store(left, sample);
+            Pixels::store(left, sample);
+            above_left = above;
             sample += Channels;
-            above += Channels;
         }
         at_ = static_cast<std::size_t>(sample - samples_);
         return command;
     }
 
-    static Pixel pixel(const std::array<int, Channels>& values) {
-        const auto wide = [&values](std::size_t c) { return static_cast<Wide<Sample>>(values[c]); };
-        if constexpr (Channels == 1)
-            return Pixel{wide(0)};
-        else
-            return Pixel{wide(0), wide(1), wide(2)};
+    /// A pixel in the first row or column, where there is one neighbour or none.
+    bool decode_at_edge(int command) {
+        Sample* sample = samples_ + at_;
+        Pixel pixel{};
+        if (at_ > 0)
+            pixel = Pixels::load(sample - (at_ < row_ ? Channels : row_));
+        if (!take_pixel(
+                command, pixel, [&](Pixel difference) { return Pixels::sum(pixel, difference); }))
+            return false;
+        Pixels::store(pixel, sample);
+        at_ += Channels;
+        return true;
     }
 
-    /// A difference that is no small one; of a plain pixel, that from nothing.
-    bool take_difference(int command, Pixel& difference, Pixel& prediction) {
-        const bool plain = command == plain_command;
-        if (!has_values(plain ? sizeof(Sample) : 1))
-            return false;
-        std::array<int, Channels> values = {};
-        if (plain) {
-            prediction = Pixel{};
-            for (std::size_t c = 0; c < Channels; ++c)
-                values[c] = take_sample(c);
-        } else {
-            for (std::size_t c = 0; c < Channels; ++c)
-                values[c] = take_signed_byte(c);
-            if constexpr (Channels == 3) {
-                values[0] += values[1];
-                values[2] += values[1];
-            }
-            for (int& value : values)
-                value = std::clamp<int>(value * step_, -full_scale, full_scale);
+    /// Makes the pixel what `next` makes of its difference, or of nothing where it is plain.
+    template <typename Next>
+    bool take_pixel(int command, Pixel& pixel, const Next& next) {
+        if (command < small_end) [[likely]] {
+            const auto& difference = small_[static_cast<std::size_t>(command)];
+            pixel = next(Pixels::load_difference(difference.data()));
+            return true;
         }
-        difference = pixel(values);
+        std::array<int, Channels> values = {};
+        if (command == plain_command) {
+            if (!take_samples(values))
+                return false;
+            pixel = pixel_of(values);
+        } else {
+            if (!take_differences(values))
+                return false;
+            pixel = next(pixel_of(values));
+        }
+        return true;
+    }
+
+    static Pixel pixel_of(const std::array<int, Channels>& values) {
+        const auto lane = [&values](std::size_t c) { return Pixels::lane(values[c]); };
+        if constexpr (Channels == 1)
+            return Pixel{lane(0)};
+        else
+            return Pixel{lane(0), lane(1), lane(2)};
+    }
+
+    bool take_samples(std::array<int, Channels>& values) {
+        if (!has_values(sizeof(Sample)))
+            return false;
+        for (std::size_t c = 0; c < Channels; ++c)
+            values[c] = take_sample(c);
+        return true;
+    }
+
+    bool take_differences(std::array<int, Channels>& values) {
+        if (!has_values(1))
+            return false;
+        for (std::size_t c = 0; c < Channels; ++c)
+            values[c] = step_ * take_signed_byte(c);
+        if constexpr (Channels == 3) {
+            values[0] += values[1];
+            values[2] += values[1];
+        }
         return true;
     }
 
@@ -261,38 +233,66 @@ private:
         if (runs_ != nullptr)
             runs_->push_back({at_ / Channels, count});
         Sample* first = samples_ + at_;
-        if (at_ == 0)
-            std::fill_n(first, Channels, Sample(0));
-        else
-            std::copy_n(first - Channels, Channels, first);
-        // What is there is copied behind itself, twice as much each time.
-        const std::size_t samples = Channels * count;
-        for (std::size_t done = Channels; done < samples; done *= 2)
-            std::memcpy(first + done, first, sizeof(Sample) * std::min(done, samples - done));
-        at_ += samples;
+        const Pixel pixel = at_ == 0 ? Pixel{} : Pixels::load(first - Channels);
+        // Some are written one by one, and these then copied.
+        constexpr std::size_t some = 16;
+        for (std::size_t k = 0; k < some; ++k)
+            Pixels::store(pixel, first + Channels * k);
+        std::array<Sample, Channels * some> colors;
+        std::memcpy(colors.data(), first, sizeof colors);
+        for (std::size_t k = some; k < count; k += some)
+            std::memcpy(first + Channels * k, colors.data(), sizeof colors);
+        at_ += Channels * count;
         return true;
     }
 
-    bool decode_above(std::size_t samples) {
+    /// Makes each of count samples, and some behind, what `piece` makes of Size samples at a time
+    /// from the row above. In a shorter row, whose own samples come up again, `single` makes each.
+    template <std::size_t Size, typename Piece, typename Single>
+    void fill_from_above(std::size_t count, const Piece& piece, const Single& single) {
+        Sample* const first = samples_ + at_;
+        Sample* const last = first + count;
+        if (row_ >= Size)
+            for (Sample* sample = first; sample < last; sample += Size)
+                piece(sample);
+        else
+            for (Sample* sample = first; sample < last; ++sample)
+                single(sample);
+        at_ += count;
+    }
+
+    bool decode_above(std::size_t count) {
         if (at_ < row_)
             return false;
-        // Rows that the run itself has made are copied on: in pieces that do not overlap.
-        for (std::size_t done = 0; done < samples; done += row_)
-            std::copy_n(
-                samples_ + at_ + done - row_,
-                std::min(row_, samples - done),
-                samples_ + at_ + done);
-        at_ += samples;
+        constexpr std::size_t size = 16 / sizeof(Sample);
+        const std::size_t row = row_;
+        fill_from_above<size>(
+            count,
+            [row](Sample* sample) {
+                std::array<Sample, size> above;
+                std::memcpy(above.data(), sample - row, sizeof above);
+                std::memcpy(sample, above.data(), sizeof above);
+            },
+            [row](Sample* sample) { *sample = *(sample - row); });
         return true;
     }
 
-    bool decode_across(std::size_t samples) {
+    bool decode_across(std::size_t count) {
         if (at_ < 2 * row_)
             return false;
-        for (Sample* sample = samples_ + at_; sample != samples_ + at_ + samples; ++sample)
-            *sample = static_cast<Sample>(
-                clamped_sample<Sample>(2 * *(sample - row_) - *(sample - 2 * row_)));
-        at_ += samples;
+        using Limited = LimitedPixels<Sample>;
+        const std::size_t row = row_;
+        fill_from_above<Limited::lanes>(
+            count,
+            [row](Sample* sample) {
+                const auto above = Limited::load(sample - row);
+                const auto step = above - Limited::load(sample - 2 * row);
+                Limited::store(Limited::sum(above, step), sample);
+            },
+            [row](Sample* sample) {
+                *sample = static_cast<Sample>(
+                    clamped_sample<Sample>(2 * *(sample - row) - *(sample - 2 * row)));
+            });
         return true;
     }
 
@@ -311,20 +311,28 @@ private:
         return true;
     }
 
-    static constexpr Wide<Sample> full_scale = Sample(-1);
-
     const TileStreams& streams_;
     Sample* samples_;
     std::size_t row_; ///< samples
     std::size_t end_;
     std::size_t row_start_ = 0;
     int step_;
-    std::array<Differences<Sample>, small_end> small_;
+    std::array<Differences<Pixels>, small_end> small_;
     std::vector<ColorRun>* runs_;
     std::size_t at_ = 0; ///< the sample that comes next, and what is used of the other streams:
     std::size_t length_ = 0;
     std::array<std::size_t, Channels> value_ = {};
 };
+
+template <typename Sample, std::size_t Channels>
+bool decode_streams(
+    const TileStreams& streams, TileShape shape, Sample* samples, std::vector<ColorRun>* runs) {
+    if (streams.error == 0)
+        return TileDecoder<Sample, Channels, ExactPixels<Sample>>(streams, shape, samples, runs)
+            .decode();
+    return TileDecoder<Sample, Channels, LimitedPixels<Sample>>(streams, shape, samples, runs)
+        .decode();
+}
 
 } // namespace
 
@@ -337,12 +345,12 @@ bool decode_tile(
     std::vector<Sample>& samples,
     std::vector<ColorRun>* runs) {
     thread_local TileStreams streams;
-    if (!unpack(bytes, sizeof(Sample) * shape.pixels(), streams))
+    if (!unpack(bytes, sizeof(Sample) * shape.pixels(), streams) || streams.error > largest_error)
         return false;
-    samples.resize(channels * shape.pixels() + lanes<Sample> - 1);
+    samples.resize(channels * shape.pixels() + room_behind);
     if (channels == 1)
-        return TileDecoder<Sample, 1>(streams, shape, largest_error, samples.data(), runs).decode();
-    return TileDecoder<Sample, 3>(streams, shape, largest_error, samples.data(), runs).decode();
+        return decode_streams<Sample, 1>(streams, shape, samples.data(), runs);
+    return decode_streams<Sample, 3>(streams, shape, samples.data(), runs);
 }
 
 template bool decode_tile(

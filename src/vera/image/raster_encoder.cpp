@@ -28,7 +28,9 @@ public:
         : wanted_(wanted)
         , decoded_(wanted.size())
         , shape_(shape)
-        , error_(static_cast<int>(largest_error)) {}
+        , error_(static_cast<int>(largest_error)) {
+        streams_.error = largest_error;
+    }
 
     TileStreams streams() && {
         while (position_ < shape_.pixels()) {
@@ -299,9 +301,17 @@ std::vector<std::byte> encoded_tile(
     TileShape shape,
     std::size_t channels,
     unsigned largest_error) {
-    return packed(
-        channels == 1 ? TileEncoder<Sample, 1>(samples, shape, largest_error).streams()
-                      : TileEncoder<Sample, 3>(samples, shape, largest_error).streams());
+    const auto encoded = [&](unsigned error) {
+        return packed(
+            channels == 1 ? TileEncoder<Sample, 1>(samples, shape, error).streams()
+                          : TileEncoder<Sample, 3>(samples, shape, error).streams());
+    };
+    std::vector<std::byte> bytes = encoded(largest_error);
+    if (largest_error == 0)
+        return bytes;
+    // What zstd finds in a pattern that repeats may be lost with the last bits.
+    std::vector<std::byte> exact = encoded(0);
+    return exact.size() <= bytes.size() ? exact : bytes;
 }
 
 template std::vector<std::byte>

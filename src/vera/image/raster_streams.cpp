@@ -58,7 +58,7 @@ ZSTD_DCtx& decompressor() {
 }
 
 void append_stream(std::vector<std::byte>& bytes, const std::vector<std::uint8_t>& stream) {
-    // Higher levels take twice the time and save less than a hundredth.
+    // The highest before those that zstd calls ultra, which take more memory.
     constexpr int level = 19;
     append_number(bytes, stream.size());
     if (stream.empty())
@@ -105,6 +105,7 @@ bool take_stream(
 
 std::vector<std::byte> packed(const TileStreams& streams) {
     std::vector<std::byte> bytes;
+    append_number(bytes, streams.error);
     append_stream(bytes, streams.commands);
     append_stream(bytes, streams.lengths);
     for (const auto& values : streams.values)
@@ -113,6 +114,10 @@ std::vector<std::byte> packed(const TileStreams& streams) {
 }
 
 bool unpack(std::span<const std::byte> bytes, std::size_t longest, TileStreams& streams) {
+    std::size_t error = 0;
+    if (!take_number(bytes, error))
+        return false;
+    streams.error = static_cast<unsigned>(error);
     if (!take_stream(bytes, longest, streams.commands)
         || !take_stream(bytes, longest, streams.lengths))
         return false;

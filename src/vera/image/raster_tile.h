@@ -20,14 +20,14 @@ struct TileShape {
 };
 
 /// The tile's bytes. Pixels have 1 or 3 samples side by side; no decoded sample differs from the
-/// one given by more than largest_error.
+/// one given by more than largest_error, and never are there more bytes than without an error.
 template <typename Sample>
 std::vector<std::byte> encoded_tile(
     std::span<const Sample> samples, TileShape shape, std::size_t channels, unsigned largest_error);
 
 /// Makes `samples` the tile's, shape.pixels() * channels of them and some more that mean nothing;
-/// false when the bytes are damaged. What is known to be constant from the code alone is appended
-/// to runs, if these are asked for.
+/// false when the bytes are damaged, or may be off by more than largest_error. What is known to be
+/// constant from the code alone is appended to runs, if these are asked for.
 template <typename Sample>
 bool decode_tile(
     std::span<const std::byte> bytes,
@@ -60,6 +60,7 @@ static_assert(first_run_command + run_kinds * run_commands <= 256);
 
 /// The bytes of a tile, by what they mean: each is compressed for itself.
 struct TileStreams {
+    unsigned error = 0; ///< no sample is off by more
     std::vector<std::uint8_t> commands;
     std::vector<std::uint8_t> lengths;
     std::array<std::vector<std::uint8_t>, 3> values; ///< by channel
