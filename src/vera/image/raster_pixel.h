@@ -48,7 +48,7 @@ struct ExactPixels {
         std::memcpy(samples, &word, sizeof word);
     }
 
-    static Pixel load_difference(const Lane* lanes) { return load(lanes); }
+    static Pixel load_difference(const Lane* from) { return load(from); }
 
     static Lane lane(int value) { return static_cast<Lane>(value); }
 
@@ -82,9 +82,9 @@ struct LimitedPixels {
         std::memcpy(samples, &narrow, sizeof narrow);
     }
 
-    static Pixel load_difference(const Lane* lanes) {
+    static Pixel load_difference(const Lane* from) {
         Pixel difference;
-        std::memcpy(&difference, lanes, sizeof difference);
+        std::memcpy(&difference, from, sizeof difference);
         return difference;
     }
 
