@@ -218,7 +218,8 @@ std::vector<ScreenVertex> VisibleParts::fans(
     std::vector<ScreenVertex> corners(starts.back().corner);
     triangles.resize(starts.back().triangle);
     parallel_ranges(blocks(), 1, [&](std::size_t number, std::size_t) {
-        auto [corner, triangle] = starts[number];
+        std::size_t corner = starts[number].corner;
+        std::size_t triangle = starts[number].triangle;
         for_each(number, nearest, [&](std::size_t facet, std::span<const ImagePoint> part) {
             const auto first = static_cast<std::uint32_t>(corner);
             for (const ImagePoint& point : part)
