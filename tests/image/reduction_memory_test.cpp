@@ -36,6 +36,14 @@ std::atomic<std::size_t> most_taken = 0;
     return memory;
 }
 
+[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+    try {
+        return operator new(size);
+    } catch (const std::bad_alloc&) {
+        return nullptr;
+    }
+}
+
 [[gnu::noinline]] void operator delete(void* memory) noexcept {
     if (memory != nullptr)
         taken -= malloc_usable_size(memory);

@@ -404,12 +404,18 @@ Scene random_scene(std::mt19937_64& random, const Camera& camera, bool with_shap
     for (std::size_t i = 0; i < count; ++i) {
         const Vec3 at = {value(), value(), value()};
         const Vec3 axis = {value(), 1.1, value()};
+        // Compilers differ in which argument comes first.
+        const auto shape = [&](const auto& made) {
+            const double last = size();
+            const double first = size();
+            return made(at, axis, first, last);
+        };
         switch (with_shapes ? random() % 4 : 0) {
         case 1:
-            add(scene.geometry, cylinder(at, axis, size(), size()));
+            add(scene.geometry, shape(cylinder));
             break;
         case 2:
-            add(scene.geometry, cone(at, axis, size(), size()));
+            add(scene.geometry, shape(cone));
             break;
         case 3:
             add_polygon(

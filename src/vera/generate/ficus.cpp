@@ -103,7 +103,9 @@ private:
         const std::size_t number = shoot.internodes.size();
         Chance chance(rules_.seed + 1, 100'000 * i + number);
         // A tip wanders, and turns up to the light.
-        const Vec3 wandering = leaning(tips_[i], chance.between(0, 7), chance.between(0, 360));
+        const double aside = chance.between(0, 360);
+        const double lean = chance.between(0, 7);
+        const Vec3 wandering = leaning(tips_[i], lean, aside);
         tips_[i] = normalized(wandering + Vec3{0, 0.05, 0});
         shoot.internodes.push_back(
             {.born = now_,

@@ -64,9 +64,12 @@ SubsceneId add_branch(
     for (std::size_t i = 0; i < form.leaves; ++i) {
         const double place = (static_cast<double>(i) + 1) / static_cast<double>(form.leaves);
         const double turn = golden_turn * static_cast<double>(i) + chance.between(-20, 20);
+        // One after the other: compilers differ in which argument comes first.
+        const double lean = chance.between(35, 75);
+        const double size = chance.between(0.8, 1.2);
         const Affine3 map = in_turn(
-            scaling(chance.between(0.8, 1.2)),
-            rotation({chance.between(35, 75), 0, 0}),
+            scaling(size),
+            rotation({lean, 0, 0}),
             rotation({0, turn, 0}),
             translation({0, 0.25 + 0.75 * place, 0}));
         add_call(geometry, parts.leaf, short_decimals(map), parts.foliage);
@@ -151,13 +154,13 @@ Scene make_forest(const ParameterValues& values) {
         const std::size_t whole_rows = i / rows;
         const auto row = static_cast<double>(whole_rows);
         const auto column = static_cast<double>(i % rows);
-        const Affine3 map = in_turn(
-            scaling(chance.between(0.7, 1.2)),
-            rotation({chance.between(-3, 3), chance.between(0, 360), chance.between(-3, 3)}),
-            translation(
-                {first + spacing * column + chance.between(-1.3, 1.3),
-                 0,
-                 first + spacing * row + chance.between(-1.3, 1.3)}));
+        const Vec3 place = {
+            first + spacing * column + chance.between(-1.3, 1.3),
+            0,
+            first + spacing * row + chance.between(-1.3, 1.3)};
+        const Vec3 turn = {chance.between(-3, 3), chance.between(0, 360), chance.between(-3, 3)};
+        const double size = chance.between(0.7, 1.2);
+        const Affine3 map = in_turn(scaling(size), rotation(turn), translation(place));
         add_call(scene.geometry, trees[chance.below(trees.size())], short_decimals(map));
     }
     remove_unused_subscenes(scene);
