@@ -27,6 +27,7 @@ struct Request {
     double x = 0;
     double y = 0;
     std::string svg;
+    bool visits = false;
     bool json = false;
 };
 
@@ -42,22 +43,49 @@ TracedScene lit_scene(
     return traced;
 }
 
+/// What is said of the pixel is more than anybody could read.
+[[noreturn]] void
+refuse(const PreparedScene& prepared, const std::string& problem, const std::string& remedy) {
+    Diagnostic wrong;
+    if (!prepared.scene.files.empty())
+        wrong.place.file = prepared.scene.files.front();
+    wrong.problem = problem;
+    wrong.remedy = remedy;
+    throw InputError({wrong});
+}
+
 RayTree tree_of(const TracedScene& traced, const PreparedScene& prepared, double x, double y) {
     const PictureSettings& settings = prepared.settings;
     const Raster raster = {ViewRays(prepared.camera), settings.width, settings.height};
     RayTree tree = ray_tree(traced, raster.ray(x, y));
-    if (tree.complete)
-        return tree;
-    Diagnostic wrong;
-    if (!prepared.scene.files.empty())
-        wrong.place.file = prepared.scene.files.front();
-    wrong.problem =
-        fmt::format("the ray tree of this pixel has more than {} rays", RayTree::most_nodes);
-    wrong.remedy = "follow fewer levels, as in --depth 8: the picture of that depth is explained";
-    throw InputError({wrong});
+    if (!tree.complete)
+        refuse(
+            prepared,
+            fmt::format("the ray tree of this pixel has more than {} rays", RayTree::most_nodes),
+            "follow fewer levels, as in --depth 8: the picture of that depth is explained");
+    return tree;
+}
+
+std::vector<RayVisits> visits_of(
+    const RayTree& tree,
+    const RayIndex& index,
+    const PreparedScene& prepared,
+    const CancelFlag& cancel) {
+    auto visits = ray_visits(tree, index, cancel);
+    if (!visits)
+        refuse(
+            prepared,
+            fmt::format(
+                "the rays of this pixel visit more than {} cells or nodes and objects",
+                RayVisits::most),
+            "follow fewer levels, as in --depth 2, or leave out --visits");
+    return *std::move(visits);
 }
 
 void explain(const Request& request, const Console& console) {
+    if (request.visits && request.index.kind == "brute")
+        throw CommandLineError("--visits lists cells or nodes, and --index brute has none; take "
+                               "--index grid or --index bvh");
     PreparedScene prepared = prepared_scene(request.scene);
     print_diagnostics(prepared.warnings, console);
     const PictureSettings& settings = prepared.settings;
@@ -88,7 +116,10 @@ void explain(const Request& request, const Console& console) {
         .y = y,
         .tree = tree_of(traced, prepared, request.x, request.y),
         .layers = picture_layers(traced),
-        .samples = {}};
+        .samples = {},
+        .visits = {}};
+    if (request.visits)
+        explanation.visits = visits_of(explanation.tree, *index, prepared, console.cancel);
     const RayTerms terms = {traced.illumination.lights.size()};
     explanation.samples = layer_samples(
         explanation.layers,
@@ -121,6 +152,10 @@ void add_explain_command(CLI::App& app, Console& console) {
         ->required()
         ->type_name("Y");
     add_index_options(*command, request->index);
+    command->add_flag(
+        "--visits",
+        request->visits,
+        "for each ray the cells or nodes that it visits and the objects tested there");
     command->add_flag("--json", request->json, "the same as JSON, every number exact");
     command
         ->add_option("--svg", request->svg, "drawing of the rays to write; - for standard output")
@@ -132,6 +167,7 @@ void add_explain_command(CLI::App& app, Console& console) {
         "Examples:\n"
         "  vera explain still_life.vera 256 300 -c still_life.ctl\n"
         "  vera explain scene.vera 10 20 --raster 64x64 --json\n"
+        "  vera explain scene.vera 10 20 --raster 64x64 --depth 1 --index grid --visits\n"
         "  vera explain scene.vera 256 300 --svg rays.svg");
 
     command->callback([request, &console] { explain(*request, console); });

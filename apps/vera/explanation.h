@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "prepared_scene.h"
+#include "ray_visits.h"
 #include <nlohmann/json_fwd.hpp>
 
 namespace vera {
@@ -29,6 +30,7 @@ struct Explanation {
     RayTree tree;
     std::vector<PictureLayer> layers;
     std::vector<LayerSample> samples; ///< of the layers, and of the rounding behind them
+    std::vector<RayVisits> visits;    ///< of the tree's rays, where they were asked for; else none
 };
 
 /// The pixel's three bytes in a picture without antialiasing.

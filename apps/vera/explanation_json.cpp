@@ -27,18 +27,79 @@ void put_place(Json& json, const SourcePlace& place) {
     json["column"] = place.column;
 }
 
+Json as_json(const SceneObject::Call& call) {
+    Json json = {{"name", call.subscene}};
+    put_place(json, call.place);
+    return json;
+}
+
 Json as_json(const SceneObject& object) {
     Json json = {{"kind", object.kind}, {"number", object.number}};
     if (object.triangle > 0)
         json["triangle"] = object.triangle;
     put_place(json, object.place);
     json["subscenes"] = Json::array();
-    for (const SceneObject::Call& call : object.calls) {
-        Json of_call = {{"name", call.subscene}};
-        put_place(of_call, call.place);
-        json["subscenes"].push_back(of_call);
-    }
+    for (const SceneObject::Call& call : object.calls)
+        json["subscenes"].push_back(as_json(call));
     return json;
+}
+
+Json as_json(
+    const WalkedPlace& place,
+    const WalkedObject& object,
+    double direction_length,
+    SceneObjects& objects) {
+    Json json = {{"outcome", name_of(object.outcome)}};
+    if (object.outcome == WalkedObject::Outcome::met)
+        json["distance"] = object.t * direction_length;
+    if (object.outcome == WalkedObject::Outcome::searched)
+        json["tests"] = object.tests;
+    if (object.is_call)
+        json["call"] = as_json(call_of(place, object, objects));
+    else
+        json["object"] = as_json(objects.object({object.primitive, 0}));
+    return json;
+}
+
+/// The calls that lead to a place, from outside inwards.
+Json calls_json(const WalkedPlace& place, SceneObjects& objects) {
+    Json calls = Json::array();
+    if (place.depth == 0)
+        return calls;
+    const SceneObject first = objects.object({place.first_primitive, 0});
+    for (std::size_t i = 0; i < place.depth; ++i)
+        calls.push_back(as_json(first.calls[i]));
+    return calls;
+}
+
+/// Of a ray whose direction is so long.
+Json as_json(const RayWalk& walk, double direction_length, SceneObjects& objects) {
+    Json visits = Json::array();
+    for (const WalkStep& step : walk.steps) {
+        const WalkedPlace& place = walk.places[step.place];
+        Json json = {{"level", step.level}, {"subscenes", calls_json(place, objects)}};
+        switch (step.kind) {
+        case WalkStep::Kind::cell:
+            json["grid"] = step.number;
+            json["cell"] = step.cell;
+            json["own_grid"] = step.is_grid ? Json(step.own_grid) : Json();
+            break;
+        case WalkStep::Kind::node:
+            json["node"] = step.number;
+            break;
+        case WalkStep::Kind::leaf:
+            json["leaf_of"] = step.number;
+            break;
+        }
+        if (step.kind != WalkStep::Kind::node) {
+            json["listed"] = step.listed;
+            json["objects"] = Json::array();
+            for (const WalkedObject& object : step.objects)
+                json["objects"].push_back(as_json(place, object, direction_length, objects));
+        }
+        visits.push_back(std::move(json));
+    }
+    return visits;
 }
 
 Json as_json(const LightAtPlace& light, std::size_t number, SceneObjects& objects) {
@@ -93,7 +154,12 @@ Json terms_json(const RayNode& node) {
     return terms;
 }
 
-void put_hit(Json& json, const Explanation& of, const RayNode& node, SceneObjects& objects) {
+void put_hit(
+    Json& json,
+    const Explanation& of,
+    const RayNode& node,
+    const RayVisits* visits,
+    SceneObjects& objects) {
     if (!node.hit.found()) {
         json["hit"] = nullptr;
         return;
@@ -109,8 +175,12 @@ void put_hit(Json& json, const Explanation& of, const RayNode& node, SceneObject
         {"luminosity_san", as_json(node.luminosity_san)},
         {"luminosity_sdi", as_json(node.material->sdi)}};
     json["lights"] = Json::array();
-    for (std::size_t i = 0; i < node.lights.size(); ++i)
+    for (std::size_t i = 0; i < node.lights.size(); ++i) {
         json["lights"].push_back(as_json(node.lights[i], i, objects));
+        if (visits != nullptr && visits->shadow_walks[i])
+            json["lights"].back()["visits"] =
+                as_json(*visits->shadow_walks[i], node.lights[i].distance, objects);
+    }
     json["mirrored_ray"] = node.mirrored_ray ? Json(*node.mirrored_ray + 1) : Json();
     json["refracted_ray"] = node.refracted_ray ? Json(*node.refracted_ray + 1) : Json();
 }
@@ -127,7 +197,10 @@ Json ray_json(const Explanation& of, std::size_t number, SceneObjects& objects) 
         {"direction", as_json(node.ray.ray.direction)},
         {"cells", node.counts.cells},
         {"tests", node.counts.tests}};
-    put_hit(json, of, node, objects);
+    const RayVisits* const visits = of.visits.empty() ? nullptr : &of.visits[number];
+    if (visits != nullptr)
+        json["visits"] = as_json(visits->walk, 1, objects);
+    put_hit(json, of, node, visits, objects);
     json["terms"] = terms_json(node);
     json["color"] = as_json(node.color);
     return json;

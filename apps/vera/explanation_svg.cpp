@@ -22,6 +22,7 @@ constexpr std::uint32_t picture_width = 900;
 constexpr std::uint32_t picture_height = 640;
 constexpr double panel_width = 400; ///< right of the picture
 constexpr double node_radius = 9;
+constexpr const char* box_color = "#cc79a7"; ///< of the same set of colours as those of the rays
 
 struct RayStyle {
     const char* color;
@@ -100,6 +101,8 @@ public:
     std::string svg(const Progress& progress, const CancelFlag& cancel) {
         add_head();
         add_scene(progress, cancel);
+        if (!of_.visits.empty())
+            add_boxes(of_.visits.front().walk);
         add_rays();
         add_lights();
         add_eye();
@@ -119,6 +122,7 @@ private:
 
     void add_head();
     void add_scene(const Progress& progress, const CancelFlag& cancel);
+    void add_boxes(const RayWalk& walk);
     void add_rays();
     void add_ray(const RayLine& line);
     void add_lights();
@@ -182,6 +186,37 @@ void RayDrawing::add_scene(const Progress& progress, const CancelFlag& cancel) {
         }
         put("</g>");
     }
+}
+
+/// The cells that the ray goes through and the leaves that it comes to, as far as something stands
+/// in them.
+void RayDrawing::add_boxes(const RayWalk& walk) {
+    put(R"(<g id="visited" stroke="{}" stroke-width="0.8">)", box_color);
+    for (const WalkStep& step : walk.steps) {
+        if (step.listed == 0)
+            continue;
+        const auto corner = [&](std::size_t number) {
+            Vec3 point = step.box.lower;
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                if ((number >> axis & 1U) != 0)
+                    point[axis] = step.box.upper[axis];
+            return view_.on_picture(transformed_point(walk.places[step.place].to_scene, point));
+        };
+        for (std::size_t number = 0; number < 8; ++number)
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const std::size_t other = number | std::size_t{1} << axis;
+                if (other == number)
+                    continue;
+                const DrawingPoint from = corner(number);
+                const DrawingPoint to = corner(other);
+                put(R"(<line x1="{:.1f}" y1="{:.1f}" x2="{:.1f}" y2="{:.1f}"/>)",
+                    from.x,
+                    from.y,
+                    to.x,
+                    to.y);
+            }
+    }
+    put("</g>");
 }
 
 void RayDrawing::add_rays() {
@@ -378,6 +413,17 @@ double RayDrawing::add_legend(double x, double y) {
             style.width,
             *style.dashes == '\0' ? "none" : style.dashes);
         put(R"(<text x="{:g}" y="{:g}">{}</text>)", x + 66, y + 4, style.meaning);
+        y += 22;
+    }
+    if (!of_.visits.empty()) {
+        put(R"(<rect x="{:g}" y="{:g}" width="52" height="12" fill="none" stroke="{}"/>)",
+            x,
+            y - 6,
+            box_color);
+        put(R"(<text x="{:g}" y="{:g}">{} whose objects the view ray is tested against</text>)",
+            x + 66,
+            y + 4,
+            of_.index == "grid" ? "cells" : "boxes");
         y += 22;
     }
     return y + 14;

@@ -63,7 +63,8 @@ private:
     void add_head();
     void add_ray(std::size_t number);
     void add_hit(const RayNode& node);
-    void add_light(const RayNode& node, std::size_t number);
+    void add_visits(const char* label, const RayWalk& walk, double direction_length);
+    void add_light(std::size_t ray, std::size_t number);
     void add_light_terms(const LightAtPlace& light, std::size_t number);
     void add_terms(const RayNode& node);
     void add_sent(const RayNode& node);
@@ -128,6 +129,8 @@ void Report::add_ray(std::size_t number) {
     row("counted",
         fmt::format(
             "{} cells or nodes visited, {} objects tested", node.counts.cells, node.counts.tests));
+    if (!of_.visits.empty())
+        add_visits("visits", of_.visits[number].walk, 1);
     if (!node.hit.found()) {
         row("meets", "nothing: it leaves the scene");
         line(fmt::format("  {:<{}}{:>11} {:>11} {:>11}", "", label_width, "red", "green", "blue"));
@@ -144,7 +147,7 @@ void Report::add_ray(std::size_t number) {
     }
     add_hit(node);
     for (std::size_t i = 0; i < node.lights.size(); ++i)
-        add_light(node, i);
+        add_light(number, i);
     add_terms(node);
 }
 
@@ -180,8 +183,15 @@ std::string Report::visibility(const LightAtPlace& light) {
     return text;
 }
 
-void Report::add_light(const RayNode& node, std::size_t number) {
-    const LightAtPlace& light = node.lights[number];
+void Report::add_visits(const char* label, const RayWalk& walk, double direction_length) {
+    for (const std::string& words : visit_lines(walk, direction_length, objects_)) {
+        row(label, words);
+        label = "";
+    }
+}
+
+void Report::add_light(std::size_t ray, std::size_t number) {
+    const LightAtPlace& light = of_.tree.nodes[ray].lights[number];
     row(fmt::format("light {}", number + 1).c_str(),
         fmt::format(
             "at distance {:.6g}, intensity there {}; L.N = {:.6g}, L.R = {:.6g}, L.S = {:.6g}",
@@ -213,6 +223,8 @@ void Report::add_light(const RayNode& node, std::size_t number) {
                 "its shadow ray: {} cells or nodes visited, {} objects tested",
                 light.counts.cells,
                 light.counts.tests));
+    if (!of_.visits.empty() && of_.visits[ray].shadow_walks[number])
+        add_visits("", *of_.visits[ray].shadow_walks[number], light.distance);
 }
 
 void Report::add_light_terms(const LightAtPlace& light, std::size_t number) {

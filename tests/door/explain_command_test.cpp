@@ -153,6 +153,105 @@ TEST(ExplainCommand, DrawsTheRays) {
     EXPECT_EQ(explained(folder, "1 1 --raster 64x64 --svg -").substr(0, 5), "<?xml");
 }
 
+/// What a ray's visits, and those of a shadow ray, list adds up to what was counted.
+void expect_counted_visits(const nlohmann::json& ray) {
+    std::size_t cells = 0;
+    std::size_t tests = 0;
+    for (const auto& visit : ray["visits"]) {
+        cells += visit.contains("leaf_of") ? 0U : 1U;
+        if (!visit.contains("objects"))
+            continue;
+        EXPECT_LE(visit["objects"].size(), visit["listed"]);
+        for (const auto& object : visit["objects"])
+            tests += object["outcome"] == "missed" || object["outcome"] == "met"
+                ? object.count("object")
+                : 0U;
+    }
+    EXPECT_EQ(cells, ray["cells"]);
+    EXPECT_EQ(tests, ray["tests"]);
+}
+
+/// All objects in the lists that a ray visits.
+std::vector<nlohmann::json> visited_objects(const nlohmann::json& ray) {
+    std::vector<nlohmann::json> all;
+    for (const auto& visit : ray["visits"])
+        for (const auto& object : visit.value("objects", nlohmann::json::array()))
+            all.push_back(object);
+    return all;
+}
+
+std::size_t count_outcomes(const nlohmann::json& ray, const char* outcome) {
+    std::size_t count = 0;
+    for (const auto& object : visited_objects(ray))
+        count += object["outcome"] == outcome ? 1U : 0U;
+    return count;
+}
+
+bool meets_its_hit(const nlohmann::json& ray) {
+    for (const auto& object : visited_objects(ray))
+        if (object["outcome"] == "met" && object["object"] == ray["hit"]["object"]
+            && object["distance"] == ray["hit"]["distance"])
+            return true;
+    return false;
+}
+
+TEST(ExplainCommand, ListsWhatRaysVisit) {
+    const ScratchFolder folder;
+    folder.write("a.vera", busy_scene);
+    for (const std::string index : {"grid", "bvh"}) {
+        const std::string options = "36 45 --raster 64x64 --visits --index " + index;
+        const auto json = nlohmann::json::parse(explained(folder, options + " --json"));
+        std::size_t entered = 0;
+        std::size_t hits = 0;
+        std::size_t met = 0;
+        for (const auto& ray : json["rays"]) {
+            expect_counted_visits(ray);
+            if (ray["hit"].is_null())
+                continue;
+            for (const auto& light : ray["lights"])
+                if (light["shadow_ray"]) {
+                    expect_counted_visits(light);
+                    entered += count_outcomes(light, "entered");
+                }
+            entered += count_outcomes(ray, "entered");
+            met += meets_its_hit(ray) ? 1U : 0U;
+            hits += 1;
+        }
+        EXPECT_GT(entered, 0U) << index;
+        EXPECT_GT(hits, 0U) << index;
+        EXPECT_EQ(met, hits) << index;
+        expect_parts(
+            explained(folder, options),
+            {index == "grid" ? "visits        grid 0 of the scene, level 1" : "boxes of the scene",
+             "ball, called at a.vera:8:1: entered",
+             "sphere 2 (a.vera:7:1): met at distance "});
+        explained(folder, options + " --svg visits.svg");
+        expect_parts(folder.read("visits.svg"), {"id=\"visited\"", "the view ray is tested"});
+    }
+    EXPECT_EQ(explained(folder, "36 45 --raster 64x64").find("visits  "), std::string::npos);
+}
+
+TEST(ExplainCommand, RefusesVisitsThatItCannotList) {
+    const ScratchFolder folder;
+    folder.write("a.vera", busy_scene);
+    const ProgramRun run = run_vera(folder, "explain a.vera 1 1 --index brute --visits");
+    EXPECT_EQ(run.exit_code, 2);
+    EXPECT_NE(run.err.find("take --index grid or --index bvh"), std::string::npos) << run.err;
+    // Glass before glass: each level of rays has twice as many.
+    std::string panes = "PROJECTION 0 0 1  -1 -1 0  1 -1 0  -1 1 0\nLI 0 9 0 1 1 1 1\n"
+                        "MA glass RAB 0.5 0.5 0.5 TAB 0.5 0.5 0.5\nCM glass\n";
+    for (int i = 0; i < 800; ++i) {
+        const std::string z = " -" + std::to_string(1 + i / 40) + " ";
+        panes += "P3 -9 -9" + z + "9 -9" + z + "0 9" + z + "\n"; // forty times each
+    }
+    folder.write("b.vera", panes);
+    const ProgramRun many =
+        run_vera(folder, "explain b.vera 3 3 --raster 8x8 --depth 11 --visits --index grid");
+    EXPECT_EQ(many.exit_code, 1);
+    EXPECT_NE(many.err.find("visit more than 100000"), std::string::npos) << many.err;
+    EXPECT_NE(many.err.find("--depth 2"), std::string::npos) << many.err;
+}
+
 TEST(ExplainCommand, RefusesPixelsThatThePictureDoesNotHave) {
     const ScratchFolder folder;
     folder.write("a.vera", busy_scene);

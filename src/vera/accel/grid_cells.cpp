@@ -38,7 +38,8 @@ public:
             return result_;
         const Grid& top = made_.front().grids.front();
         result_.counts = top.counts;
-        result_.box = {own(made_.front(), top.box.lower), own(made_.front(), top.box.upper)};
+        result_.box = {
+            own_point(made_.front(), top.box.lower), own_point(made_.front(), top.box.upper)};
         std::vector<PlacedGrid> grids = {PlacedGrid{}};
         for (std::size_t level = 1; level <= deepest && !grids.empty() && !too_many(); ++level) {
             result_.levels.emplace_back();
@@ -58,11 +59,6 @@ public:
     bool too_many() const { return result_.cells.size() > most_cells_; }
 
 private:
-    /// A point of local coordinates in the geometry's own.
-    static Vec3 own(const GeometryGrids& grids, Vec3 local) {
-        return (1 / grids.scale) * local + grids.center;
-    }
-
     const Geometry& geometry(std::size_t number) const {
         return number == 0 ? scene_.geometry : scene_.subscenes[number - 1];
     }
@@ -139,7 +135,8 @@ private:
             lower[axis] += grid.cell_size[axis] * place[axis];
         const Vec3 size = (1 / grids.scale) * grid.cell_size;
         const Affine3 cube = {
-            {{Vec3{size.x, 0, 0}, Vec3{0, size.y, 0}, Vec3{0, 0, size.z}}}, own(grids, lower)};
+            {{Vec3{size.x, 0, 0}, Vec3{0, size.y, 0}, Vec3{0, 0, size.z}}},
+            own_point(grids, lower)};
         result_.cells.push_back(
             {composed(placed.to_scene, cube),
              static_cast<std::uint32_t>(result_.levels.size()),

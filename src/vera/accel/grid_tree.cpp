@@ -5,6 +5,7 @@
 #include "vera/accel/index_memory.h"
 #include "vera/accel/packet_index.h"
 #include "vera/accel/simd_level.h"
+#include "vera/accel/walk_recorder.h"
 #include "vera/scene/bounds.h"
 
 #include <algorithm>
@@ -59,7 +60,8 @@ std::unique_ptr<GridTree> make_grid_tree(
         detail::made_of_geometries<GeometryGrids>(scene, progress, [&](const Geometry& geometry) {
             return detail::build_geometry_grids(geometry, boxes, settings, cancel);
         });
-    return std::make_unique<TreeOfGrids>(scene, std::move(grids), detail::search_grids);
+    return std::make_unique<TreeOfGrids>(
+        scene, std::move(grids), detail::search_grids, detail::walk_grids);
 }
 
 } // namespace vera

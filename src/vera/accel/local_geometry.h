@@ -31,6 +31,11 @@ inline Vec3 local_point(const LocalGeometry& local, Vec3 point) {
     return local.scale * (point - local.center);
 }
 
+/// The point of local coordinates in the geometry's own.
+inline Vec3 own_point(const LocalGeometry& local, Vec3 point) {
+    return (1 / local.scale) * point + local.center;
+}
+
 /// The geometry with its local coordinates chosen, given the bounds of the subscenes.
 LocalGeometry local_geometry(const Geometry& geometry, const std::vector<Box3>& subscene_bounds);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/accel/packet_index.h"
 
+#include "vera/accel/walk_recorder.h"
 #include "vera/base/check.h"
 
 #include <algorithm>
@@ -25,6 +26,7 @@ void start(
     Purpose purpose) {
     query.scene = searched.scene;
     query.geometries = searched.geometries;
+    query.recorder = searched.recorder;
     query.purpose = purpose;
     query.rays = rays;
     query.active = ~LaneMask{0} >> (std::numeric_limits<LaneMask>::digits - rays.size());
@@ -134,6 +136,35 @@ void find_transmittances(
         take_transmitted(query, transmitted.subspan(first, query.rays.size()));
     };
     for_each_packet(searched, rays, counts, begin, finish);
+}
+
+namespace {
+
+/// The same scene, searched by a walk that tells its steps.
+SearchedScene
+walked(SearchedScene searched, void (*walk)(PacketQuery& query), WalkRecorder& recorder) {
+    searched.search = walk;
+    searched.recorder = &recorder;
+    return searched;
+}
+
+} // namespace
+
+RayWalk
+walk_nearest(const SearchedScene& searched, void (*walk)(PacketQuery& query), const QueryRay& ray) {
+    RayWalk result;
+    WalkRecorder recorder(result);
+    find_nearest_hits(walked(searched, walk, recorder), {&ray, 1}, {&result.hit, 1}, result.counts);
+    return result;
+}
+
+RayWalk walk_transmittance(
+    const SearchedScene& searched, void (*walk)(PacketQuery& query), const QueryRay& ray) {
+    RayWalk result;
+    WalkRecorder recorder(result);
+    find_transmittances(
+        walked(searched, walk, recorder), {&ray, 1}, {&result.transmitted, 1}, result.counts);
+    return result;
 }
 
 } // namespace vera::detail

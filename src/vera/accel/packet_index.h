@@ -4,6 +4,7 @@
 #include "vera/accel/local_geometry.h"
 #include "vera/accel/packet_query.h"
 #include "vera/accel/ray_index.h"
+#include "vera/accel/ray_walk.h"
 #include "vera/accel/searches.h"
 #include "vera/base/parallel.h"
 
@@ -20,6 +21,7 @@ struct SearchedScene {
     bool opaque = false;                          ///< no material lets light through
     /// Leaves candidates of the main scene to be decided: see decide_main_scene().
     void (*search)(PacketQuery& query) = nullptr;
+    WalkRecorder* recorder = nullptr; ///< of a search that is a plain walk
 };
 
 /// RayIndex::nearest_hits.
@@ -36,13 +38,24 @@ void find_transmittances(
     std::span<Color> transmitted,
     QueryCounts& counts);
 
+/// WalkedIndex::nearest_walk and transmittance_walk, by a plain walk in place of the search.
+RayWalk
+walk_nearest(const SearchedScene& searched, void (*walk)(PacketQuery& query), const QueryRay& ray);
+RayWalk walk_transmittance(
+    const SearchedScene& searched, void (*walk)(PacketQuery& query), const QueryRay& ray);
+
 /// A kind of RayIndex that answers packet by packet from what it has made of each geometry, which
-/// is a LocalGeometry and more.
+/// is a LocalGeometry and more. Walks are those of one ray.
 template <typename Index, typename Made>
-class PacketIndex : public Index {
+class PacketIndex : public Index, public WalkedIndex {
 public:
-    PacketIndex(const Scene& scene, std::vector<Made> made, void (*search)(PacketQuery& query))
-        : made_(std::move(made)) {
+    PacketIndex(
+        const Scene& scene,
+        std::vector<Made> made,
+        void (*search)(PacketQuery& query),
+        void (*walk)(PacketQuery& query))
+        : made_(std::move(made))
+        , walk_(walk) {
         searched_.scene = &scene;
         searched_.opaque = is_opaque(scene);
         searched_.search = search;
@@ -62,6 +75,14 @@ public:
         find_transmittances(searched_, rays, transmitted, counts);
     }
 
+    RayWalk nearest_walk(const QueryRay& ray) const override {
+        return walk_nearest(searched_, walk_, ray);
+    }
+
+    RayWalk transmittance_walk(const QueryRay& ray) const override {
+        return walk_transmittance(searched_, walk_, ray);
+    }
+
     std::size_t memory() const override { return this->statistics().bytes; }
 
 protected:
@@ -69,6 +90,7 @@ protected:
 
 private:
     std::vector<Made> made_;
+    void (*walk_)(PacketQuery& query);
     SearchedScene searched_;
 };
 

@@ -200,6 +200,8 @@ enum class Purpose : std::uint8_t {
     transmittance ///< what they let through
 };
 
+class WalkRecorder;
+
 /// A packet of rays, asked about all at once. Holds its memory from one packet to the next.
 struct PacketQuery {
     const Scene* scene = nullptr;
@@ -217,7 +219,8 @@ struct PacketQuery {
     std::array<TransmittanceSearch, packet_size> transmittance;
     QueryCounts counts;
     Mailbox mailbox;
-    std::deque<Frame> frames; ///< by depth of subscenes
+    std::deque<Frame> frames;         ///< by depth of subscenes
+    WalkRecorder* recorder = nullptr; ///< whom a plain walk tells its steps; no search does
 };
 
 /// Prepares the frame of the main scene; returns the lanes that touch its bounds.
@@ -250,6 +253,29 @@ void fetch_candidates(const Frame& frame);
 
 /// Does decide() for all that has remained undecided when the main scene was searched.
 void decide_main_scene(PacketQuery& query);
+
+/// How far behind the distance by which something is surely met that may lie which has to be told
+/// from it: what coincides with it, and roundings.
+inline float margin_behind(const Frame& frame) {
+    return 4 * frame.slack + frame.behind;
+}
+
+/// Whether elements of the kind may wait to be decided: where it is not known by when they are
+/// surely met, what lies behind would not be left out meanwhile.
+constexpr bool may_wait(ElementRecord::Kind kind) {
+    switch (kind) {
+    case ElementRecord::Kind::sphere:
+    case ElementRecord::Kind::triangle:
+    case ElementRecord::Kind::quadrangle:
+    case ElementRecord::Kind::mantle:
+        return true;
+    case ElementRecord::Kind::box:
+    case ElementRecord::Kind::cylinder:
+    case ElementRecord::Kind::call:
+        break;
+    }
+    return false;
+}
 
 /// Lets there be room for one more candidate.
 inline void make_room_for_candidate(PacketQuery& query, Frame& frame) {

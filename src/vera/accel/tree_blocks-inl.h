@@ -71,12 +71,6 @@ HWY_INLINE TestedRays<D> rays_from(D d, const Frame& frame, std::size_t lane) {
         frame.double_slack};
 }
 
-/// How far behind the distance by which something is surely met that may lie which has to be told
-/// from it: what coincides with it, and roundings.
-inline float margin_behind(const Frame& frame) {
-    return 4 * frame.slack + frame.behind;
-}
-
 /// How a packet's rays meet an element, or one ray those of a block.
 template <std::size_t Size>
 struct MetRows {
@@ -289,23 +283,6 @@ HWY_INLINE void copy(const std::array<float, packet_size>& from, FloatRow& to) {
     const Lanes d;
     for (std::size_t i = 0; i < packet_size; i += hn::Lanes(d))
         hn::StoreU(hn::LoadU(d, from.data() + i), d, to.data() + i);
-}
-
-/// Whether elements of the kind may wait to be decided: where meeting() does not tell by when they
-/// are surely met, what lies behind would not be left out meanwhile.
-constexpr bool may_wait(ElementRecord::Kind kind) {
-    switch (kind) {
-    case ElementRecord::Kind::sphere:
-    case ElementRecord::Kind::triangle:
-    case ElementRecord::Kind::quadrangle:
-    case ElementRecord::Kind::mantle:
-        return true;
-    case ElementRecord::Kind::box:
-    case ElementRecord::Kind::cylinder:
-    case ElementRecord::Kind::call:
-        break;
-    }
-    return false;
 }
 
 /// Takes what is known of how the lanes' rays meet element i, which is not a call.

@@ -5,6 +5,7 @@
 #include "vera/accel/packet_index.h"
 #include "vera/accel/simd_level.h"
 #include "vera/accel/tree_build.h"
+#include "vera/accel/walk_recorder.h"
 #include "vera/scene/bounds.h"
 
 #include <algorithm>
@@ -54,7 +55,8 @@ make_wide_bvh(const Scene& scene, const Progress& progress, const CancelFlag* ca
         detail::made_of_geometries<GeometryTree>(scene, progress, [&](const Geometry& geometry) {
             return detail::build_geometry_tree(geometry, boxes, cancel);
         });
-    return std::make_unique<ForestOfBoxes>(scene, std::move(trees), detail::search_trees);
+    return std::make_unique<ForestOfBoxes>(
+        scene, std::move(trees), detail::search_trees, detail::walk_trees);
 }
 
 } // namespace vera
