@@ -12,56 +12,18 @@
 #include <vector>
 
 #include "theory/growth.h"
+#include "theory/rectangles.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace vera {
 namespace {
 
-using Rectangles = std::vector<IsoRectangle>;
 using Random = std::mt19937_64;
-
-std::int32_t any_within(std::int32_t reach, Random& random) {
-    const auto values = static_cast<std::uint64_t>(2 * std::int64_t{reach} + 1);
-    return static_cast<std::int32_t>(static_cast<std::int64_t>(random() % values) - reach);
-}
-
-/// Corners within the reach, z as well; sides of at most the size, some of them none.
-Rectangles
-rectangles_within(std::size_t count, std::int32_t reach, std::int32_t size, Random& random) {
-    Rectangles made;
-    for (std::size_t i = 0; i < count; ++i) {
-        const std::int32_t x = any_within(reach, random);
-        const std::int32_t y = any_within(reach, random);
-        const auto side = [&](std::int32_t from) {
-            const auto length =
-                static_cast<std::int32_t>(random() % (static_cast<std::uint64_t>(size) + 1));
-            return std::min(from + length, reach);
-        };
-        made.push_back({any_within(reach, random), x, side(x), y, side(y)});
-    }
-    return made;
-}
-
-/// Many copies of few.
-Rectangles repeated_rectangles(std::size_t count, Random& random) {
-    const Rectangles few = rectangles_within(3, 2, 3, random);
-    Rectangles made;
-    for (std::size_t i = 0; i < count; ++i)
-        made.push_back(few[random() % few.size()]);
-    return made;
-}
-
-WholeRay ray_within(std::int32_t reach, std::int32_t slope, Random& random) {
-    WholeRay ray;
-    for (std::int32_t& value : ray.origin)
-        value = any_within(reach, random);
-    for (std::int32_t& value : ray.direction)
-        value = any_within(slope, random);
-    if (ray.direction[2] == 0)
-        ray.direction[2] = random() % 2 == 0 ? 1 : -1;
-    return ray;
-}
+using testing::ray_within;
+using testing::Rectangles;
+using testing::rectangles_within;
+using testing::repeated_rectangles;
 
 struct Answers {
     int met = 0;

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "theory/rectangles.h"
+
+#include <algorithm>
+
+namespace vera::testing {
+
+std::int32_t any_within(std::int32_t reach, std::mt19937_64& random) {
+    const auto values = static_cast<std::uint64_t>(2 * std::int64_t{reach} + 1);
+    return static_cast<std::int32_t>(static_cast<std::int64_t>(random() % values) - reach);
+}
+
+Rectangles rectangles_within(
+    std::size_t count, std::int32_t reach, std::int32_t size, std::mt19937_64& random) {
+    Rectangles made;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::int32_t x = any_within(reach, random);
+        const std::int32_t y = any_within(reach, random);
+        const auto side = [&](std::int32_t from) {
+            const auto length =
+                static_cast<std::int32_t>(random() % (static_cast<std::uint64_t>(size) + 1));
+            return std::min(from + length, reach);
+        };
+        made.push_back({any_within(reach, random), x, side(x), y, side(y)});
+    }
+    return made;
+}
+
+Rectangles repeated_rectangles(std::size_t count, std::mt19937_64& random) {
+    const Rectangles few = rectangles_within(3, 2, 3, random);
+    Rectangles made;
+    for (std::size_t i = 0; i < count; ++i)
+        made.push_back(few[random() % few.size()]);
+    return made;
+}
+
+WholeRay ray_within(std::int32_t reach, std::int32_t slope, std::mt19937_64& random) {
+    WholeRay ray;
+    for (std::int32_t& value : ray.origin)
+        value = any_within(reach, random);
+    for (std::int32_t& value : ray.direction)
+        value = any_within(slope, random);
+    if (ray.direction[2] == 0)
+        ray.direction[2] = random() % 2 == 0 ? 1 : -1;
+    return ray;
+}
+
+SlopedRays sloped_rays_within(
+    std::size_t count, std::int32_t reach, std::int32_t slope, std::mt19937_64& random) {
+    SlopedRays made(count);
+    for (SlopedRay& ray : made) {
+        ray.slope_x = any_within(slope, random);
+        ray.offset_x = any_within(reach, random);
+        ray.slope_y = any_within(slope, random);
+        ray.offset_y = any_within(reach, random);
+        ray.first_z = any_within(reach, random);
+    }
+    return made;
+}
+
+SlopedRays
+pencil_of_rays(std::size_t count, std::int32_t reach, std::int32_t slope, std::mt19937_64& random) {
+    SlopedRays made(count);
+    for (SlopedRay& ray : made) {
+        ray.slope_x = any_within(slope, random);
+        ray.slope_y = any_within(slope, random);
+        ray.offset_x = ray.slope_x * reach;
+        ray.offset_y = ray.slope_y * reach;
+        ray.first_z = -reach;
+    }
+    return made;
+}
+
+SlopedRays
+raster_of_rays(std::size_t count, std::int32_t reach, std::int32_t slope, std::mt19937_64& random) {
+    const SlopedRays few = sloped_rays_within(8, reach, slope, random);
+    SlopedRays made(count);
+    for (SlopedRay& ray : made) {
+        const SlopedRay& column = few[random() % few.size()];
+        const SlopedRay& row = few[random() % few.size()];
+        ray = {column.slope_x, column.offset_x, row.slope_y, row.offset_y, column.first_z};
+    }
+    return made;
+}
+
+SlopedRays
+repeated_rays(std::size_t count, std::int32_t reach, std::int32_t slope, std::mt19937_64& random) {
+    const SlopedRays few = sloped_rays_within(3, reach, slope, random);
+    SlopedRays made(count);
+    for (SlopedRay& ray : made)
+        ray = few[random() % few.size()];
+    return made;
+}
+
+const std::vector<RayFamily>& ray_families() {
+    static const std::vector<RayFamily> families = {
+        {"any", sloped_rays_within},
+        {"a pencil", pencil_of_rays},
+        {"a raster", raster_of_rays},
+        {"repeated", repeated_rays}};
+    return families;
+}
+
+} // namespace vera::testing
