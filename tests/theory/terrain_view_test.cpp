@@ -22,6 +22,7 @@
 #include "theory/growth.h"
 #include "theory/terrains.h"
 #include "visible/maximal_pieces.h"
+#include "visible/screen_scenes.h"
 #include <gtest/gtest.h>
 
 namespace vera {
@@ -210,6 +211,29 @@ TEST(TerrainView, NamesTheFacesThatAreNoTerrain) {
     ScreenScene turned = close;
     turned.triangles[0].source = 100;
     expect_in("so close that the grid of the picture does not tell", message_of(turned));
+}
+
+TEST(TerrainView, RefusesOrSeesLikeTheCellsWhatLiesAnyhow) {
+    int refused = 0;
+    int seen = 0;
+    for (std::uint64_t seed = 0; seed < 3000 && !HasFailure(); ++seed) {
+        ScreenScene scene = seed % 2 == 0 ? testing::layers(seed, 1 + seed % 6, 4)
+                                          : testing::tangle(seed, 1 + seed % 6, 4);
+        try {
+            // Numbered from the nearest on, so that what is coincident is seen alike.
+            std::uint32_t number = 0;
+            for (const std::uint32_t i : ground_order(scene))
+                scene.triangles[i].source = number++;
+            const VisiblePieces found = terrain_pieces(scene, Upward::with_y);
+            EXPECT_TRUE(maximal_pieces(scene, found) == maximal_pieces(scene, cell_raster(scene)))
+                << "seed " << seed;
+            ++seen;
+        } catch (const InputError&) {
+            ++refused;
+        }
+    }
+    EXPECT_GT(refused, 500);
+    EXPECT_GT(seen, 100);
 }
 
 TEST(TerrainView, RefusesShadows) {

@@ -205,13 +205,23 @@ private:
         throw InputError({diagnostic});
     }
 
+    [[noreturn]] void refuse_overlap(std::uint32_t one, std::uint32_t other) const {
+        refuse(
+            named(scene_, one) + " and " + named(scene_, other)
+                + " lie one above the other, so that neither comes first",
+            "take a scene with one height over each place, in an upright picture");
+    }
+
     std::int64_t end_of(std::uint32_t triangle) const {
         const Corners& corners = ground_[triangle];
         return std::max({corners[0].x, corners[1].x, corners[2].x});
     }
 
     Status::iterator insert(std::uint32_t triangle) {
-        const auto place = there_.insert(triangle).first;
+        const auto [place, is_new] = there_.insert(triangle);
+        // Only those that are not apart can each be behind the other.
+        if (!is_new)
+            refuse_overlap(*place, triangle);
         if (place != there_.begin())
             meet(*std::prev(place), triangle);
         if (std::next(place) != there_.end())
@@ -229,10 +239,7 @@ private:
     void meet(std::uint32_t nearer, std::uint32_t farther) {
         ++steps_;
         if (!are_apart(ground_[nearer], ground_[farther]))
-            refuse(
-                named(scene_, nearer) + " and " + named(scene_, farther)
-                    + " lie one above the other, so that neither comes first",
-                "take a scene with one height over each place, in an upright picture");
+            refuse_overlap(nearer, farther);
         // What is drawn in front must be nearer, too.
         if (!are_apart(in_picture(scene_, nearer), in_picture(scene_, farther))
             && triangle_order(scene_, slopes_, nearer, farther) != FrontOrder::first)

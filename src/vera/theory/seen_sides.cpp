@@ -148,8 +148,9 @@ void SeenSides::add_vertical(
         verticals_.push_back({triangle, is_left, way < 0 ? one : other, way < 0 ? other : one});
 }
 
-/// On all segments along it.
-void SeenSides::add_sides_of(const Vertical& vertical) {
+/// On all segments along it, cut where others end: what touches a column from its other side is not
+/// known to what is seen here.
+void SeenSides::add_sides_of(const Vertical& vertical, std::span<const RationalPoint> ends) {
     const auto& [triangle, is_left, from, to] = vertical;
     // The first that does not end below. Those of a column follow each other without overlap.
     auto next =
@@ -163,6 +164,12 @@ void SeenSides::add_sides_of(const Vertical& vertical) {
         const auto& [begin, end] = segments_.segments[*next];
         VERA_CHECK(order(RationalPoint{begin}, reached) <= 0);
         const RationalPoint last = is_before(RationalPoint{end}, to) ? RationalPoint{end} : to;
+        for (auto stop = std::upper_bound(ends.begin(), ends.end(), reached, is_before);
+             stop != ends.end() && is_before(*stop, last);
+             ++stop) {
+            sides_.push_back({*next, is_left, reached, *stop, triangle});
+            reached = *stop;
+        }
         sides_.push_back({*next, is_left, reached, last, triangle});
         reached = last;
     }
@@ -217,8 +224,15 @@ void SeenSides::add_parts(std::span<const Side> sides) {
 }
 
 VisiblePieces SeenSides::pieces() {
+    std::vector<RationalPoint> ends;
+    for (const Side& side : sides_)
+        for (const RationalPoint* end : {&side.from, &side.to})
+            if (end->x_numerator == 0)
+                ends.push_back(*end);
+    std::sort(ends.begin(), ends.end(), is_before);
+    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
     for (const Vertical& vertical : verticals_)
-        add_sides_of(vertical);
+        add_sides_of(vertical, ends);
     std::sort(sides_.begin(), sides_.end(), [](const Side& a, const Side& b) {
         return a.segment != b.segment ? a.segment < b.segment : is_before(a.from, b.from);
     });

@@ -75,7 +75,7 @@ private:
     void add_verticals(std::uint32_t triangle, std::span<const Slab> slabs);
     void add_vertical(
         std::uint32_t triangle, const RationalPoint& one, const RationalPoint& other, bool is_left);
-    void add_sides_of(const Vertical& vertical);
+    void add_sides_of(const Vertical& vertical, std::span<const RationalPoint> ends);
     void add_parts(std::span<const Side> sides);
     void add_part(
         const Side* left, const Side* right, const RationalPoint& from, const RationalPoint& to);

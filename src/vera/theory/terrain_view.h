@@ -38,10 +38,13 @@ struct TerrainCounts {
 };
 
 /// The pieces that plane_sweep() and cell_raster() find, of surfaces without shadows, joined at
-/// most as far. Throws InputError as ground_order() does, and where what is seen is no terrain:
-/// where a triangle begins above what lies before it in a column, or below the border of the
-/// terrain. Throws std::invalid_argument where the scene has triangles of shadow,
-/// std::runtime_error where the memory that is available would not suffice, and Cancelled.
+/// most as far. (Where two triangles that are no neighbours on the ground are so close that the
+/// grid does not tell which is in front, those take that of the smaller source, and this takes the
+/// nearer one. Where sources are numbered from the nearest on, they agree.) Throws InputError as
+/// ground_order() does, and where what is seen is no terrain: where a triangle begins above what
+/// lies before it in a column, or below the border of the terrain. Throws std::invalid_argument
+/// where the scene has triangles of shadow, std::runtime_error where the memory that is available
+/// would not suffice, and Cancelled.
 VisiblePieces terrain_pieces(
     const ScreenScene& scene,
     Upward upward = Upward::against_y,
