@@ -27,8 +27,7 @@ Numbers all_numbers(std::size_t count) {
 }
 
 /// What is asked for where memory is not known to suffice.
-std::span<const PlanePoint>
-required(std::span<const PlanePoint> points, std::size_t leaf_size) {
+std::span<const PlanePoint> required(std::span<const PlanePoint> points, std::size_t leaf_size) {
     require_plane_points(points);
     require_memory(
         ConjugationTree::bytes_forecast(points.size(), leaf_size)

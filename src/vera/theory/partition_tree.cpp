@@ -144,8 +144,8 @@ double halved_bytes_forecast(std::size_t count, std::size_t leaf_size) {
     std::size_t size = count;
     for (double nodes = 1; size > 0; nodes *= 2) {
         // All points are vertices at worst, and the ends of the chains are there twice.
-        bytes += nodes
-            * static_cast<double>(sizeof(PartitionNode) + (size + 2) * sizeof(std::uint32_t));
+        bytes +=
+            nodes * static_cast<double>(sizeof(PartitionNode) + (size + 2) * sizeof(std::uint32_t));
         if (size <= std::max<std::size_t>(leaf_size, 1))
             break;
         size = (size + 1) / 2;
