@@ -92,6 +92,11 @@ repeated_rays(std::size_t count, std::int32_t reach, std::int32_t slope, std::mt
     return made;
 }
 
+SlopedRays nearly_parallel_rays(
+    std::size_t count, std::int32_t reach, std::int32_t slope, std::mt19937_64& random) {
+    return sloped_rays_within(count, reach, slope / 20, random);
+}
+
 const std::vector<RayFamily>& ray_families() {
     static const std::vector<RayFamily> families = {
         {"any", sloped_rays_within},

@@ -45,6 +45,10 @@ raster_of_rays(std::size_t count, std::int32_t reach, std::int32_t slope, std::m
 SlopedRays
 repeated_rays(std::size_t count, std::int32_t reach, std::int32_t slope, std::mt19937_64& random);
 
+/// Of nearly one direction: slopes of a 20th of the slope.
+SlopedRays nearly_parallel_rays(
+    std::size_t count, std::int32_t reach, std::int32_t slope, std::mt19937_64& random);
+
 /// A way to make so many rays.
 struct RayFamily {
     const char* name;
