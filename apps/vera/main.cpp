@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "command.h"
+#include "formula_words.h"
 #include "interrupt.h"
 #include "messages.h"
 #include "usage.h"
@@ -23,7 +24,7 @@ using vera::ExitCode;
 ExitCode run(CLI::App& app, Console& console, int argc, char** argv) {
     try {
         vera::honour_simd_environment();
-        app.parse(argc, argv);
+        app.parse(vera::words_to_parse(app, argc, argv));
         return ExitCode::good;
     } catch (const CLI::Success& help) {
         app.exit(help); // prints the help or the version

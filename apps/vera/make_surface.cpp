@@ -65,6 +65,11 @@ range(const std::string& option, const std::vector<std::string>& ends, const For
     return {begin, end};
 }
 
+/// Without the space that words_to_parse() may have put before it.
+std::string typed(const std::string& word) {
+    return word.starts_with(" -") ? word.substr(1) : word;
+}
+
 Surface surface_of(const Request& request) {
     FormulaNames names;
     for (const std::string& let : request.lets)
@@ -76,9 +81,9 @@ Surface surface_of(const Request& request) {
     const auto [u_begin, u_end] = range("--u", request.u, names);
     const auto [v_begin, v_end] = range("--v", request.v, names);
     return {
-        .x = read_formula("X", request.x, formula),
-        .y = read_formula("Y", request.y, formula),
-        .z = read_formula("Z", request.z, formula),
+        .x = read_formula("X", typed(request.x), formula),
+        .y = read_formula("Y", typed(request.y), formula),
+        .z = read_formula("Z", typed(request.z), formula),
         .u_begin = u_begin,
         .u_end = u_end,
         .v_begin = v_begin,
@@ -139,14 +144,22 @@ void make_surface(const Request& request, const Console& console) {
 }
 
 void make_surface_or_tell(const Request& request, const Console& console) {
-    try {
-        make_surface(request, console);
-    } catch (const SurfaceError& error) {
-        throw InputError(
+    const auto problem = [](const SurfaceError& error, const std::string& more) {
+        return InputError(
             {{.severity = Severity::error,
               .place = {"surface", 0, 0},
               .problem = error.what(),
-              .remedy = error.remedy}});
+              .remedy = error.remedy + more}});
+    };
+    try {
+        make_surface(request, console);
+    } catch (const TooManyTriangles& error) {
+        throw problem(
+            error,
+            request.pixels ? " (--pixels), or --most-triangles"
+                           : " (--deviation), or --most-triangles");
+    } catch (const SurfaceError& error) {
+        throw problem(error, "");
     }
 }
 
@@ -192,11 +205,14 @@ void add_make_surface(CLI::App& make, Console& console) {
     add_console_options(*command, console);
     command->footer(fmt::format(
         "Formulas: numbers, u, v, pi, e, + - * / ^ and\n  {}.\n"
+        "One that begins with -h, -o or -q, which are options, stands in brackets: "
+        "\"(-omega*u)\".\n"
         "Examples:\n"
         "  vera make surface \"cos(u)*cos(v)\" \"sin(v)\" \"sin(u)*cos(v)\" \\\n"
         "       --u 0 2*pi --v -pi/2 pi/2 -o ball.vera\n"
         "  vera make surface u v \"sin(n*(u^2+v^2))/n\" --let n=5 --z-up \\\n"
-        "       --u -1 1 --v -1 1 --pixels 0.02 -o waves.vera",
+        "       --u -1 1 --v -1 1 --pixels 0.02 -o waves.vera\n"
+        "  vera make surface -v \"-u*v\" u --u -1 1 --v -1 1 -o saddle.vera",
         formula_function_names()));
     command->callback([request, &console] { make_surface_or_tell(*request, console); });
 }

@@ -86,14 +86,17 @@ TEST(CheckCommand, CountsNotesOfSolidsAndShowsThemWhenStrict) {
     folder.write("a.vera", std::string(small_scene) + "CM grey\nP3 -1 -1 0  1 -1 0  0 1 0\n");
     const ProgramRun run = run_vera(folder, "check a.vera");
     EXPECT_EQ(run.exit_code, 0) << run.err;
-    EXPECT_EQ(run.out, "a.vera: good, with 1 note (--strict shows it)\n");
+    EXPECT_EQ(run.out, "a.vera: good, with 2 notes (--strict shows them)\n");
     EXPECT_EQ(run.err, "");
     const ProgramRun strict = run_vera(folder, "check a.vera --strict");
     EXPECT_EQ(strict.exit_code, 0);
-    EXPECT_EQ(strict.out, "a.vera: good, with 1 note\n");
+    EXPECT_EQ(strict.out, "a.vera: good, with 2 notes\n");
     EXPECT_EQ(
         strict.err,
         "a.vera:8:1: note: this face or mesh passes through that of line 4\n"
+        "    P3 -1 -1 0  1 -1 0  0 1 0\n"
+        "    ^~\n"
+        "a.vera:8:1: note: this face or mesh passes through the sphere of line 5\n"
         "    P3 -1 -1 0  1 -1 0  0 1 0\n"
         "    ^~\n");
     EXPECT_NE(

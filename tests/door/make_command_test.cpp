@@ -54,11 +54,23 @@ TEST(MakeCommand, RunsTheExamplesOfItsHelp) {
           "make surface \"cos(u)*cos(v)\" \"sin(v)\" \"sin(u)*cos(v)\" --u 0 2*pi --v -pi/2 pi/2 "
           "-o ball.vera",
           "make surface u v \"sin(n*(u^2+v^2))/n\" --let n=5 --z-up --u -1 1 --v -1 1 --pixels "
-          "0.5 -o waves.vera"}) {
+          "0.5 -o waves.vera",
+          "make surface -v \"-u*v\" u --u -1 1 --v -1 1 -o saddle.vera"}) {
         const ProgramRun run = run_vera(folder, example);
         EXPECT_EQ(run.exit_code, 0) << example << '\n' << run.err;
     }
-    EXPECT_EQ(folder.file_count(), 6U);
+    EXPECT_EQ(folder.file_count(), 8U);
+}
+
+TEST(MakeCommand, TakesFormulasThatBeginWithAMinus) {
+    const ScratchFolder folder;
+    const auto made = [&](const char* formulas) {
+        return run_vera(folder, std::string("make surface --bare -o - ") + formulas).out;
+    };
+    const std::string brackets = made("\"(-u)\" v \"(-cos(v))\"");
+    EXPECT_FALSE(brackets.empty());
+    EXPECT_EQ(made("-u v \"-cos(v)\""), brackets);
+    EXPECT_EQ(made("-- -u v \"-cos(v)\""), brackets);
 }
 
 TEST(MakeCommand, SaysWhatIsWrong) {
@@ -86,14 +98,27 @@ TEST(MakeCommand, SaysWhatIsWrong) {
         {"make surface u v \"2 * sine(u)\" -o a.vera",
          1,
          "Z:1:5: error: there is no 'sine'; did you mean 'sin'?\n    2 * sine(u)\n        ^~~~"},
-        {"make surface u v 1/u --u -1 1 -o a.vera", 1, "near u ="},
+        {"make surface u v 1/u --u -1 1 -o a.vera",
+         1,
+         "surface: error: z has no finite value at u = 0"},
+        {"make surface u v \"log(-1)\" -o a.vera",
+         1,
+         "surface: error: z has a finite value nowhere"},
+        {"make surface u u u -o a.vera", 1, "surface: error: the surface has no area"},
+        {"make surface u 1e9+v u*v -o a.vera", 1, "surface: error: numbers near 1e+09 are rounded"},
+        {"make surface -sine\\(u\\) v u -o a.vera",
+         1,
+         "X:1:2: error: there is no 'sine'; did you mean 'sin'?\n    -sine(u)\n     ^~~~"},
+        {"make surface u v u -w 3 -o a.vera", 2, "unknown argument"},
+        {"make balls --size 2 --size 3 -o a.vera", 2, "--size"},
         {"make surface u v u*v --u 1 1 -o a.vera", 2, "--u goes from 1 to 1"},
         {"make surface u v u --let u=1 -o a.vera",
          1,
          "--let:1:1: error: 'u' has a meaning already"},
         {"make surface u v \"sin(99*u)\" --deviation 1e-9 -o a.vera",
          1,
-         "triangles, and 2000000 are allowed"},
+         "triangles, and 2000000 are allowed\n  allow a larger deviation (--deviation), or "
+         "--most-triangles"},
         {"make surface u v u --deviation 1 --pixels 1 -o a.vera", 2, "exclude each other"},
         {"make surface u v u --deviation -1 -o a.vera", 2, "--deviation takes a number from"},
         {"make surface u v u --deviation nan -o a.vera", 2, "--deviation takes a number from"},

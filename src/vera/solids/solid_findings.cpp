@@ -4,14 +4,17 @@
 #include "vera/base/long_loop.h"
 #include "vera/base/progress_part.h"
 #include "vera/base/random.h"
+#include "vera/scene/bounds.h"
 #include "vera/solids/box_pairs.h"
 #include "vera/solids/shells.h"
 #include "vera/solids/solid_faces.h"
+#include "vera/solids/sphere_crossing.h"
 #include "vera/solids/triangle_relation.h"
 
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
@@ -58,6 +61,18 @@ private:
     void add_turned(const std::vector<std::uint32_t>& turned, std::size_t by_normal);
     void check_openness(const Shell& shell);
     void find_pairs(const Progress& progress, const CancelFlag* cancel);
+
+    /// What may pass through something else: a triangle, or a whole sphere.
+    struct Part {
+        static constexpr std::uint32_t no_triangle = 0xffffffff;
+
+        std::uint32_t item = 0;
+        std::uint32_t triangle = no_triangle; ///< of faces_
+
+        bool is_sphere() const { return triangle == no_triangle; }
+    };
+
+    TriangleRelation relation_of(const Part& a, const Part& b) const;
 
     const Item& item_of(std::uint32_t face) const {
         return geometry_.items[faces_.faces[face].item];
@@ -332,44 +347,91 @@ void GeometryCheck::check_openness(const Shell& shell) {
         "the same differ";
 }
 
+TriangleRelation GeometryCheck::relation_of(const Part& a, const Part& b) const {
+    const auto sphere_of = [&](const Part& part) -> const Sphere& {
+        return geometry_.spheres[geometry_.items[part.item].index];
+    };
+    const auto corners_of = [&](const Part& part) {
+        return faces_.corners_of(faces_.triangles[part.triangle]);
+    };
+    const auto crossing_if = [](bool is) {
+        return is ? TriangleRelation::crossing : TriangleRelation::apart;
+    };
+    // What a generator makes of one statement is as it should be.
+    const Item& first_item = geometry_.items[a.item];
+    const Item& second_item = geometry_.items[b.item];
+    const bool is_one_line = first_item.line != 0 && first_item.line == second_item.line
+        && first_item.file == second_item.file;
+    if ((a.is_sphere() || b.is_sphere()) && is_one_line)
+        return TriangleRelation::apart;
+    if (a.is_sphere() && b.is_sphere())
+        return crossing_if(is_crossing(sphere_of(a), sphere_of(b)));
+    if (a.is_sphere() || b.is_sphere())
+        return crossing_if(
+            is_crossing(sphere_of(a.is_sphere() ? a : b), corners_of(a.is_sphere() ? b : a)));
+    const std::uint32_t first = faces_.triangles[a.triangle].face;
+    const std::uint32_t second = faces_.triangles[b.triangle].face;
+    if (first == second)
+        return TriangleRelation::apart;
+    const TriangleRelation between = relation(corners_of(a), corners_of(b));
+    // What stands twice is told as that.
+    return between == TriangleRelation::covering && loop_of(first) == loop_of(second)
+        ? TriangleRelation::apart
+        : between;
+}
+
 void GeometryCheck::find_pairs(const Progress& progress, const CancelFlag* cancel) {
     constexpr std::size_t most_pairs = 1'000'000;
     using ItemPair = std::tuple<Kind, std::uint32_t, std::uint32_t>;
     std::map<ItemPair, std::size_t> pairs;
     std::size_t found = 0;
+    std::vector<Part> parts;
     std::vector<Box3> boxes;
-    boxes.reserve(faces_.triangles.size());
-    for (const SolidFaces::Triangle& triangle : faces_.triangles) {
+    parts.reserve(faces_.triangles.size() + geometry_.spheres.size());
+    boxes.reserve(parts.capacity());
+    for (std::uint32_t i = 0; i < faces_.triangles.size(); ++i) {
+        const SolidFaces::Triangle& triangle = faces_.triangles[i];
         const auto [a, b, c] = faces_.corners_of(triangle);
+        parts.push_back({faces_.faces[triangle.face].item, i});
         boxes.push_back(grown(grown(grown(Box3(), a), b), c));
     }
+    for (std::uint32_t i = 0; i < geometry_.items.size(); ++i)
+        if (geometry_.items[i].kind == ItemKind::sphere) {
+            parts.push_back({i});
+            boxes.push_back(bounds(geometry_.spheres[geometry_.items[i].index]));
+        }
     const auto look_at = [&](std::uint32_t i, std::uint32_t k) {
-        const SolidFaces::Triangle& a = faces_.triangles[i];
-        const SolidFaces::Triangle& b = faces_.triangles[k];
-        if (a.face == b.face || found == most_pairs)
+        if (found == most_pairs)
             return;
-        const TriangleRelation between = relation(faces_.corners_of(a), faces_.corners_of(b));
-        if (between == TriangleRelation::apart
-            || (between == TriangleRelation::covering && loop_of(a.face) == loop_of(b.face)))
+        const TriangleRelation between = relation_of(parts[i], parts[k]);
+        if (between == TriangleRelation::apart)
             return;
         ++found;
-        const std::uint32_t first = faces_.faces[a.face].item;
-        const std::uint32_t second = faces_.faces[b.face].item;
+        const std::uint32_t first = parts[i].item;
+        const std::uint32_t second = parts[k].item;
         ++pairs[ItemPair(
             between == TriangleRelation::crossing ? Kind::crossing : Kind::covering,
             std::max(first, second),
             std::min(first, second))];
     };
     for_each_box_pair(boxes, look_at, progress, cancel);
+    const auto word_for = [&](std::uint32_t item) {
+        return geometry_.items[item].kind == ItemKind::sphere ? "sphere" : "face or mesh";
+    };
     for (const auto& [pair, count] : pairs) {
         const auto [kind, item, other] = pair;
         SolidFinding& finding = add(kind, Severity::note, item);
         finding.other = other;
         const std::string with = item == other
             ? fmt::format("itself, at {} pair{} of triangles", count, count == 1 ? "" : "s")
-            : fmt::format("that of {}", place_of(other, geometry_.items[item].file));
+            : fmt::format(
+                "{} of {}",
+                std::string_view(word_for(item)) == word_for(other)
+                    ? "that"
+                    : fmt::format("the {}", word_for(other)),
+                place_of(other, geometry_.items[item].file));
         finding.problem = kind == Kind::crossing
-            ? fmt::format("this face or mesh passes through {}", with)
+            ? fmt::format("this {} passes through {}", word_for(item), with)
             : fmt::format("a part of this face or mesh coincides with {}", with);
         finding.remedy = kind == Kind::crossing
             ? ""

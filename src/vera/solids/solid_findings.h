@@ -43,9 +43,10 @@ struct SolidFinding {
 const char* name_of(SolidFinding::Kind kind);
 
 /// What is doubtful about the solids of each geometry, by itself: where subscenes meet one another
-/// is not looked at, nor are curved surfaces but for those that stand in the text twice. Of one
-/// geometry in the order of the kinds, then of the text. Takes about n log n for n faces that
-/// spread over space; looks at a million pairs that cross or cover, at most. Throws Cancelled.
+/// is not looked at, nor are shapes of revolution but for those that stand in the text twice.
+/// Spheres cross each other and faces where they do so by more than touching_part. Of one geometry
+/// in the order of the kinds, then of the text. Takes about n log n for n faces that spread over
+/// space; looks at a million pairs that cross or cover, at most. Throws Cancelled.
 std::vector<SolidFinding> solid_findings(
     const Scene& scene, const Progress& progress = {}, const CancelFlag* cancel = nullptr);
 
