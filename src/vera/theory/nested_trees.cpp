@@ -3,8 +3,10 @@
 
 #include "vera/base/available_memory.h"
 #include "vera/base/long_loop.h"
+#include "vera/theory/conjugation_tree.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <string>
@@ -40,8 +42,14 @@ private:
 
     std::unique_ptr<Level> level(std::size_t condition, Numbers numbers) {
         auto made = std::make_unique<Level>();
-        made->tree = ConjugationTree(
-            trees_.points_.at(condition), std::move(numbers), trees_.few_, {}, cancel_);
+        made->tree = partition_tree(
+            trees_.kind_,
+            trees_.points_.at(condition),
+            std::move(numbers),
+            trees_.few_,
+            {},
+            cancel_,
+            EqualPoints::together);
         const std::span<const PartitionNode> nodes = made->tree.nodes();
         made->nearness.reserve(nodes.size());
         for (const PartitionNode& node : nodes)
@@ -67,12 +75,19 @@ private:
     }
 
     void add_all_sorted(Level& level) {
-        const std::size_t count = level.tree.numbers().size();
-        std::size_t depths = 0;
-        for (std::size_t size = count; size > trees_.few_; size = (size + 1) / 2)
-            ++depths;
-        level.by_z.assign(depths, Numbers(count));
+        level.by_z.assign(depths_of_many(level, 0), Numbers(level.tree.numbers().size()));
         add_sorted(level, 0, 0);
+    }
+
+    /// Of nodes of more than few, from that node on downwards.
+    std::size_t depths_of_many(const Level& level, std::uint32_t number) const {
+        const PartitionNode& node = level.tree.nodes()[number];
+        if (node.size() <= trees_.few_)
+            return 0;
+        if (node.is_leaf())
+            return 1;
+        return 1
+            + std::max(depths_of_many(level, number + 1), depths_of_many(level, node.children));
     }
 
     void add_sorted(Level& level, std::uint32_t number, std::size_t depth) {
@@ -234,11 +249,13 @@ NestedTrees::NestedTrees(
     std::span<const IsoRectangle> rectangles,
     std::optional<std::size_t> few,
     const Progress& progress,
-    const CancelFlag* cancel)
-    : few_(std::max<std::size_t>(few.value_or(usual_few(rectangles.size())), 1)) {
+    const CancelFlag* cancel,
+    TreeKind kind)
+    : few_(std::max<std::size_t>(few.value_or(usual_few(rectangles.size())), 1))
+    , kind_(kind) {
     require_rectangles(rectangles);
     require_memory(
-        bytes_forecast(rectangles.size(), few_),
+        bytes_forecast(rectangles.size(), few_, kind),
         "nesting trees of " + std::to_string(rectangles.size()) + " rectangles down to "
             + std::to_string(few_),
         "trees that end at more rectangles, as at " + std::to_string(8 * few_)
@@ -279,7 +296,7 @@ std::size_t NestedTrees::bytes() const {
 
 double
 NestedTrees::level_bytes_forecast(std::size_t condition, std::size_t count, std::size_t few) {
-    double bytes = sizeof(Level) + ConjugationTree::bytes_forecast(count, few);
+    double bytes = sizeof(Level) + halved_bytes_forecast(count, few);
     double nodes = 1;
     for (std::size_t size = count; size > 0; size = (size + 1) / 2, nodes *= 2) {
         bytes += nodes * (sizeof(NearnessOfNode) + sizeof(std::unique_ptr<Level>));
@@ -293,11 +310,12 @@ NestedTrees::level_bytes_forecast(std::size_t condition, std::size_t count, std:
     return bytes;
 }
 
-double NestedTrees::bytes_forecast(std::size_t rectangles, std::size_t few) {
+double NestedTrees::bytes_forecast(std::size_t rectangles, std::size_t few, TreeKind kind) {
     constexpr std::size_t each = sizeof(IsoRectangle) + side_condition_count * sizeof(PlanePoint)
         + ConjugationTree::building_bytes_per_point;
     return static_cast<double>(rectangles * each)
-        + level_bytes_forecast(0, rectangles, std::max<std::size_t>(few, 1));
+        + level_bytes_forecast(0, rectangles, std::max<std::size_t>(few, 1))
+        * std::pow(depth_factor(kind), side_condition_count);
 }
 
 } // namespace vera

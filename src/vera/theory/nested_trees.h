@@ -15,8 +15,9 @@
 // looked at one by one.
 #pragma once
 
-#include "vera/theory/conjugation_tree.h"
 #include "vera/theory/iso_rectangle.h"
+#include "vera/theory/partition_tree.h"
+#include "vera/theory/tree_kind.h"
 
 #include <array>
 #include <cstddef>
@@ -47,7 +48,8 @@ public:
         std::span<const IsoRectangle> rectangles,
         std::optional<std::size_t> few = {},
         const Progress& progress = {},
-        const CancelFlag* cancel = nullptr);
+        const CancelFlag* cancel = nullptr,
+        TreeKind kind = TreeKind::conjugation);
 
     /// As brute_force_first_rectangle(), and throws likewise. May be asked from many threads.
     std::optional<std::uint32_t>
@@ -56,9 +58,10 @@ public:
     /// What it takes of memory.
     std::size_t bytes() const;
 
-    /// At most so much, in bytes, whatever the rectangles are; with what building takes for a
-    /// while, and without what the allocator takes for itself.
-    static double bytes_forecast(std::size_t rectangles, std::size_t few);
+    /// At most so much, in bytes, whatever the rectangles are, of optimal trees about so much; with
+    /// what building takes for a while, and without what the allocator takes for itself.
+    static double
+    bytes_forecast(std::size_t rectangles, std::size_t few, TreeKind kind = TreeKind::conjugation);
 
 private:
     friend class NestedTreesBuilder;
@@ -66,7 +69,7 @@ private:
 
     /// A tree of one condition's points, and what its nodes have.
     struct Level {
-        ConjugationTree tree;
+        PartitionTree tree;
         std::vector<NearnessOfNode> nearness; ///< of each node
         std::vector<std::unique_ptr<Level>>
             inner; ///< of each node of more than few; not of the last
@@ -81,6 +84,7 @@ private:
     std::vector<IsoRectangle> rectangles_;
     std::array<std::vector<PlanePoint>, side_condition_count> points_;
     std::size_t few_ = 0;
+    TreeKind kind_ = TreeKind::conjugation;
     std::unique_ptr<Level> outermost_;
 };
 

@@ -8,6 +8,8 @@
 #include "vera/theory/conjugation_tree.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <limits>
 #include <numeric>
 #include <string>
@@ -63,8 +65,14 @@ private:
     /// Rays that are equal come and go by themselves.
     PartitionTree
     tree_of(std::span<const PlanePoint> points, Numbers numbers, const Progress& progress) const {
-        return ConjugationTree(
-            points, std::move(numbers), trees_.few_, progress, cancel_, EqualPoints::apart);
+        return partition_tree(
+            trees_.kind_,
+            points,
+            std::move(numbers),
+            trees_.few_,
+            progress,
+            cancel_,
+            EqualPoints::apart);
     }
 
     void add_inner(RayTree& outer) {
@@ -100,11 +108,13 @@ RayTrees::RayTrees(
     std::span<const SlopedRay> rays,
     std::size_t few,
     const Progress& progress,
-    const CancelFlag* cancel)
-    : few_(std::max<std::size_t>(few, 1)) {
+    const CancelFlag* cancel,
+    TreeKind kind)
+    : few_(std::max<std::size_t>(few, 1))
+    , kind_(kind) {
     require_sloped_rays(rays);
     require_memory(
-        bytes_forecast(rays.size(), few_),
+        bytes_forecast(rays.size(), few_, kind),
         "nesting trees of " + std::to_string(rays.size()) + " rays down to " + std::to_string(few_),
         "trees that end at more rays, as at " + std::to_string(8 * few_)
             + ", and trees of fewer rays take less");
@@ -203,7 +213,7 @@ std::size_t RayTrees::bytes() const {
     return bytes;
 }
 
-double RayTrees::bytes_forecast(std::size_t rays, std::size_t few) {
+double RayTrees::bytes_forecast(std::size_t rays, std::size_t few, TreeKind kind) {
     few = std::max<std::size_t>(few, 1);
     constexpr std::size_t each_ray = sizeof(SlopedRay) + 2 * sizeof(PlanePoint)
         + ConjugationTree::building_bytes_per_point + sizeof(std::uint8_t);
@@ -216,7 +226,7 @@ double RayTrees::bytes_forecast(std::size_t rays, std::size_t few) {
             nodes *= 2;
         return bytes + 2 * nodes * sizeof(std::uint32_t);
     };
-    double bytes = static_cast<double>(rays * each_ray) + tree(rays);
+    double bytes = tree(rays);
     double nodes = 1;
     for (std::size_t size = rays; size > 0; size = (size + 1) / 2, nodes *= 2) {
         bytes += nodes * sizeof(std::unique_ptr<RayTree>);
@@ -224,7 +234,7 @@ double RayTrees::bytes_forecast(std::size_t rays, std::size_t few) {
             break;
         bytes += nodes * (sizeof(RayTree) + tree(size));
     }
-    return bytes;
+    return static_cast<double>(rays * each_ray) + bytes * std::pow(depth_factor(kind), 2);
 }
 
 LiveRays::LiveRays(const RayTrees& trees)

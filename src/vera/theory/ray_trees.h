@@ -16,6 +16,7 @@
 
 #include "vera/theory/partition_tree.h"
 #include "vera/theory/sloped_ray.h"
+#include "vera/theory/tree_kind.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -63,7 +64,8 @@ public:
         std::span<const SlopedRay> rays,
         std::size_t few = usual_few,
         const Progress& progress = {},
-        const CancelFlag* cancel = nullptr);
+        const CancelFlag* cancel = nullptr,
+        TreeKind kind = TreeKind::conjugation);
 
     /// The numbers of all rays that the rectangle meets, whatever lies before it, in ascending
     /// order: as brute_force_rays_met(). Looks at each ray whose line is met, also where that
@@ -106,9 +108,10 @@ public:
     /// What it takes of memory.
     std::size_t bytes() const;
 
-    /// At most so much, in bytes, whatever the rays are; with what building and LiveRays take, and
-    /// without what the allocator takes for itself.
-    static double bytes_forecast(std::size_t rays, std::size_t few = usual_few);
+    /// At most so much, in bytes, whatever the rays are, of optimal trees about so much; with what
+    /// building and LiveRays take, and without what the allocator takes for itself.
+    static double bytes_forecast(
+        std::size_t rays, std::size_t few = usual_few, TreeKind kind = TreeKind::conjugation);
 
 private:
     struct Strips {
@@ -178,6 +181,7 @@ private:
     std::vector<PlanePoint> y_points_;
     RayTree outer_;
     std::size_t few_ = 0;
+    TreeKind kind_ = TreeKind::conjugation;
     std::size_t node_count_ = 0;
 };
 
