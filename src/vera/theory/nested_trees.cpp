@@ -42,9 +42,9 @@ private:
         auto made = std::make_unique<Level>();
         made->tree = ConjugationTree(
             trees_.points_.at(condition), std::move(numbers), trees_.few_, {}, cancel_);
-        const std::span<const ConjugationNode> nodes = made->tree.nodes();
+        const std::span<const PartitionNode> nodes = made->tree.nodes();
         made->nearness.reserve(nodes.size());
-        for (const ConjugationNode& node : nodes)
+        for (const PartitionNode& node : nodes)
             made->nearness.push_back(nearness(made->tree.numbers_of(node)));
         if (condition < last_condition)
             add_inner(*made, condition);
@@ -54,7 +54,7 @@ private:
     }
 
     void add_inner(Level& level, std::size_t condition) {
-        const std::span<const ConjugationNode> nodes = level.tree.nodes();
+        const std::span<const PartitionNode> nodes = level.tree.nodes();
         level.inner.resize(nodes.size());
         for (std::size_t i = 0; i < nodes.size(); ++i) {
             if (nodes[i].size() <= trees_.few_)
@@ -76,7 +76,7 @@ private:
     }
 
     void add_sorted(Level& level, std::uint32_t number, std::size_t depth) {
-        const ConjugationNode& node = level.tree.nodes()[number];
+        const PartitionNode& node = level.tree.nodes()[number];
         if (node.size() <= trees_.few_)
             return;
         const auto numbers = level.tree.numbers_of(node);
@@ -133,7 +133,7 @@ private:
     search(const Level& level, std::size_t condition, std::uint32_t number, std::size_t depth) {
         if (level.tree.nodes().empty() || !may_be_first(level.nearness[number]))
             return;
-        const ConjugationNode& node = level.tree.nodes()[number];
+        const PartitionNode& node = level.tree.nodes()[number];
         switch (level.tree.inclusion(node, half_planes_.at(condition), counts_)) {
         case Inclusion::none:
             return;
