@@ -29,7 +29,7 @@ SweepCounts& SweepCounts::operator+=(const SweepCounts& more) {
     nodes += more.nodes;
     reports += more.reports;
     rectangles += more.rectangles;
-    places += more.places;
+    hulls += more.hulls;
     return *this;
 }
 

@@ -32,14 +32,15 @@ struct SweepCounts {
     std::uint64_t nodes = 0;       ///< that were looked at for rectangles
     std::uint64_t reports = 0;     ///< of a ray that meets a rectangle
     std::uint64_t rectangles = 0;  ///< that were asked for
-    std::uint64_t places = 0;      ///< tests of hulls, where rays are in groups
+    std::uint64_t hulls = 0;       ///< tests of a group's hull with a rectangle
 
     SweepCounts& operator+=(const SweepCounts& more);
 
+    /// What happens, each in O(log^2 m) steps.
+    std::uint64_t events() const { return x_swaps + y_swaps + reports + rectangles + hulls; }
+
     /// All steps: what a bound is compared with.
-    std::uint64_t steps() const {
-        return x_swaps + y_swaps + moves + comparisons + nodes + reports + rectangles + places;
-    }
+    std::uint64_t steps() const { return events() + moves + comparisons + nodes; }
 };
 
 class KineticRangeTree {
