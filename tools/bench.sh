@@ -10,6 +10,7 @@ bench_usage() {
 ./dev bench billion ...  a scene of a billion triangles in less than a gigabyte
 ./dev bench drawings ... drawings, against CGAL, three.js, sketch and OpenCASCADE
 ./dev bench engines ...  how the two engines grow that find what is seen
+./dev bench comparison . depth buffer, visible surfaces and rays, as section 3.4 of the paper compares them
 ./dev bench faces ...    whether any face is wrong, in the map and in files, at a million points a scene
 ./dev bench leaks ...    whether the background shines through drawings, in five programs
 ./dev bench sizes ...    how large drawings are beside what they need
@@ -65,6 +66,12 @@ bench_engines() {
     step "measure the engines" bench/drawings/engines "$@"
 }
 
+bench_comparison() {
+    # shellcheck disable=SC2046 # one option or none
+    step "build" build release $(without_tests) -DVERA_BUILD_BENCHMARKS=ON -- vera comparison_bench
+    step "compare the strategies" bench/comparison "$@"
+}
+
 bench_faces() {
     # shellcheck disable=SC2046 # one option or none
     step "build" build release $(without_tests) -DVERA_BUILD_BENCHMARKS=ON -- vera faces_check
@@ -103,7 +110,7 @@ bench_plots() {
 bench() {
     case ${1:-} in
     --help | -h) bench_usage ;;
-    peers | rays | growth | billion | drawings | engines | faces | leaks | sizes | raster | colors | plots)
+    peers | rays | growth | billion | drawings | engines | comparison | faces | leaks | sizes | raster | colors | plots)
         step "install packages" install_packages build bench
         "bench_$1" "${@:2}"
         ;;
@@ -115,6 +122,7 @@ bench() {
         bench_billion
         bench_drawings
         bench_engines
+        bench_comparison
         bench_faces
         bench_leaks
         bench_sizes

@@ -120,7 +120,10 @@ bool DepthBuffer::is_in_front(std::uint32_t one, std::uint32_t other, NearnessPl
 
 /// Puts the triangle into a row of the buffer, which holds the numbers of triangles.
 void DepthBuffer::cover(
-    std::uint32_t triangle, std::size_t row, std::span<std::uint32_t> seen) const {
+    std::uint32_t triangle,
+    std::size_t row,
+    std::span<std::uint32_t> seen,
+    DepthCounts& counts) const {
     const Run run = covered(
         faces_[triangle].face.corners,
         static_cast<std::int64_t>(columns()),
@@ -130,13 +133,17 @@ void DepthBuffer::cover(
     const double y = (static_cast<double>(row) + 0.5) * screen_size / static_cast<double>(rows());
     for (std::int64_t i = run.first; i < run.last; ++i) {
         std::uint32_t& nearest = seen[static_cast<std::size_t>(i)];
+        ++counts.filled;
+        counts.compared += nearest == none ? 0 : 1;
         if (nearest == none
             || is_in_front(triangle, nearest, {(static_cast<double>(i) + 0.5) * width, y}))
             nearest = triangle;
     }
 }
 
-void DepthBuffer::see(std::size_t band, std::vector<std::uint32_t>& sources) const {
+void DepthBuffer::see(
+    std::size_t band, std::vector<std::uint32_t>& sources, DepthCounts* counts) const {
+    DepthCounts here;
     const std::size_t first_row = bands().first_row(band) * samples_.down;
     const std::size_t last_row = bands().last_row(band) * samples_.down;
     sources.assign((last_row - first_row) * columns(), none);
@@ -149,7 +156,12 @@ void DepthBuffer::see(std::size_t band, std::vector<std::uint32_t>& sources) con
             cover(
                 listed_[i],
                 row,
-                std::span(sources).subspan((row - first_row) * columns(), columns()));
+                std::span(sources).subspan((row - first_row) * columns(), columns()),
+                here);
+    }
+    if (counts != nullptr) {
+        counts->filled += here.filled;
+        counts->compared += here.compared;
     }
     for (std::uint32_t& seen : sources)
         seen = seen == none ? PixelPart::background : faces_[seen].source;

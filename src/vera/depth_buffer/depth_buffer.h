@@ -26,6 +26,12 @@ struct DepthSamples {
     std::size_t down = 1;
 };
 
+/// The steps of a depth buffer, which are the same on every machine.
+struct DepthCounts {
+    std::uint64_t filled = 0;   ///< samples of each triangle, covered or not by others before
+    std::uint64_t compared = 0; ///< of these, with what was there
+};
+
 /// The depth buffer (Catmull 1974): at each sample, of the triangles that cover it, the nearest is
 /// kept. Which samples a triangle covers is decided in whole numbers, its sides included, and which
 /// of two triangles is in front as in drawings: see front_order.h. What passes through another is
@@ -37,8 +43,9 @@ public:
     DepthBuffer(std::span<const DepthTriangle> triangles, const DepthSamples& samples);
 
     /// The sources that the samples of a band see, row by row; PixelPart::background where none is.
-    /// May be called from many threads.
-    void see(std::size_t band, std::vector<std::uint32_t>& sources) const;
+    /// May be called from many threads. Steps are added to the counts, if there are any.
+    void
+    see(std::size_t band, std::vector<std::uint32_t>& sources, DepthCounts* counts = nullptr) const;
 
     /// The same as parts of pixels, in the order of pixels and then of sources: an area is the part
     /// of the samples, and its middle theirs.
@@ -57,7 +64,11 @@ private:
     std::size_t rows() const { return samples_.height * samples_.down; }
 
     void sort_into_bands();
-    void cover(std::uint32_t triangle, std::size_t row, std::span<std::uint32_t> seen) const;
+    void cover(
+        std::uint32_t triangle,
+        std::size_t row,
+        std::span<std::uint32_t> seen,
+        DepthCounts& counts) const;
     bool is_in_front(std::uint32_t one, std::uint32_t other, NearnessPlace place) const;
 
     DepthSamples samples_;

@@ -79,6 +79,18 @@ int SweepPredicates::order(const SweepPoint& a, const SweepPoint& b) const {
     return by_x != 0 ? by_x : sign(one.y * other.denominator - other.y * one.denominator);
 }
 
+int SweepPredicates::order_of_x(const SweepPoint& a, const SweepPoint& b) const {
+    ++counts_.comparisons;
+    constexpr double sure = 2 * point_error;
+    const bool are_same = a.is_crossing() && a.first == b.first && a.second == b.second;
+    if (are_same || std::abs(a.x - b.x) > sure || (!a.is_crossing() && !b.is_crossing()))
+        return are_same || a.x == b.x ? 0 : a.x < b.x ? -1 : 1;
+    ++counts_.exact_comparisons;
+    const Fraction one = fraction(a);
+    const Fraction other = fraction(b);
+    return sign(one.x * other.denominator - other.x * one.denominator);
+}
+
 int SweepPredicates::side(std::uint32_t segment, const SweepPoint& point) const {
     ++counts_.orientations;
     if (point.first == segment || point.second == segment)

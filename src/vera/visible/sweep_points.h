@@ -38,6 +38,9 @@ public:
     /// Orders by x, then by y.
     int order(const SweepPoint& a, const SweepPoint& b) const;
 
+    /// Orders by x alone.
+    int order_of_x(const SweepPoint& a, const SweepPoint& b) const;
+
     /// Positive where the point lies above the segment's line, to the left of its way.
     int side(std::uint32_t segment, const SweepPoint& point) const;
 
