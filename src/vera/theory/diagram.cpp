@@ -129,6 +129,14 @@ void Diagram::text(DrawingPoint place, std::string_view text, const DiagramText&
     text_ += fmt::format(">{}</text>\n", raised_and_lowered(text, style.size));
 }
 
+void Diagram::lines(
+    DrawingPoint place, std::span<const std::string> lines, const DiagramText& style) {
+    for (const std::string& line : lines) {
+        text(place, line, style);
+        place.y += 1.5 * style.size;
+    }
+}
+
 std::string Diagram::svg() {
     return std::exchange(text_, {}) + "</svg>\n";
 }

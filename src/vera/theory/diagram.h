@@ -37,6 +37,17 @@ struct DiagramText {
     double turn_degrees = 0; ///< clockwise, about the place
 };
 
+/// Where the numbers of a plane, whose y grows upward, are drawn.
+struct DiagramPlane {
+    DrawingPoint origin; ///< of the plane, in pixels
+    double pixels_x = 1; ///< for each unit
+    double pixels_y = 1;
+
+    DrawingPoint place(double x, double y) const {
+        return {origin.x + x * pixels_x, origin.y - y * pixels_y};
+    }
+};
+
 /// Lines, areas and words on a white page, one upon the other, as SVG. Coordinates are in pixels,
 /// of which y grows downward, and are written to a tenth of one. The same calls give the same
 /// bytes.
@@ -54,6 +65,10 @@ public:
     /// What stands behind a '^', up to the next space, comma or bracket, is raised; behind a '_'
     /// lowered.
     void text(DrawingPoint place, std::string_view text, const DiagramText& style = {});
+
+    /// Lines of text below each other, from that place on.
+    void
+    lines(DrawingPoint place, std::span<const std::string> lines, const DiagramText& style = {});
 
     /// Ends the document; afterwards the diagram is empty.
     std::string svg();

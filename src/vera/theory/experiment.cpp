@@ -25,7 +25,10 @@ std::span<const Experiment> experiments() {
     static const std::vector<Experiment> all = [] {
         std::vector<Experiment> found;
         for (const auto& of_structure :
-             {plane_query_experiments, nested_trees_experiments, visible_surface_experiments}) {
+             {plane_query_experiments,
+              nested_trees_experiments,
+              dual_experiments,
+              visible_surface_experiments}) {
             std::vector<Experiment> some = of_structure();
             std::move(some.begin(), some.end(), std::back_inserter(found));
         }

@@ -54,12 +54,13 @@ std::string full_name(const Experiment& experiment);
 std::vector<std::size_t> sizes_up_to(const Experiment& experiment, std::size_t last);
 
 /// All there are, those of one name in a row. A further structure adds a function to the list in
-/// experiments.cpp.
+/// experiment.cpp.
 std::span<const Experiment> experiments();
 
 // Those of each structure.
 std::vector<Experiment> plane_query_experiments();
 std::vector<Experiment> nested_trees_experiments();
+std::vector<Experiment> dual_experiments();
 std::vector<Experiment> visible_surface_experiments();
 
 } // namespace vera

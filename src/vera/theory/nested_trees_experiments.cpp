@@ -3,56 +3,25 @@
 #include "vera/math/elementary.h"
 #include "vera/theory/experiment.h"
 #include "vera/theory/nested_trees.h"
-#include "vera/theory/whole_within.h"
+#include "vera/theory/scattered_rectangles.h"
 
-#include <algorithm>
-#include <cmath>
 #include <string>
 
 namespace vera {
 
 namespace {
 
-constexpr std::int32_t reach = 20000;
-constexpr std::int32_t slope = 1000;
 constexpr int rays = 300;
 /// Nodes of so many rectangles have no trees. Few, so that nesting begins at small sizes.
 constexpr std::size_t few = 8;
 
-/// Within a cube. Sides are at most so many parts of the mean distance: with 2, rays meet some
-/// whatever the number is; with 0, none, so that nothing ends the search early.
-std::vector<IsoRectangle> rectangles_of(std::size_t count, double parts, std::mt19937_64& random) {
-    const auto longest =
-        static_cast<std::uint64_t>(parts * reach / std::sqrt(static_cast<double>(count)));
-    std::vector<IsoRectangle> made(count);
-    for (IsoRectangle& rectangle : made) {
-        rectangle.z = whole_within(reach, random);
-        rectangle.lower_x = whole_within(reach, random);
-        rectangle.lower_y = whole_within(reach, random);
-        rectangle.upper_x = rectangle.lower_x + static_cast<std::int32_t>(random() % (longest + 1));
-        rectangle.upper_y = rectangle.lower_y + static_cast<std::int32_t>(random() % (longest + 1));
-    }
-    return made;
-}
-
-/// From anywhere within the cube, into any direction but along its rectangles.
-WholeRay any_ray(std::mt19937_64& random) {
-    WholeRay ray;
-    for (std::int32_t& value : ray.origin)
-        value = whole_within(reach, random);
-    for (std::int32_t& value : ray.direction)
-        value = whole_within(slope, random);
-    ray.direction[2] = ray.direction[2] == 0 ? 1 : ray.direction[2];
-    return ray;
-}
-
 CountedSize
 counted_steps(std::size_t size, double parts, std::uint64_t seed, const CancelFlag* cancel) {
     std::mt19937_64 random(seed);
-    const NestedTrees trees(rectangles_of(size, parts, random), few, {}, cancel);
+    const NestedTrees trees(scattered_rectangles(size, parts, random), few, {}, cancel);
     QueryCounts counts;
     for (int i = 0; i < rays; ++i)
-        trees.first_rectangle(any_ray(random), &counts);
+        trees.first_rectangle(scattered_ray(random), &counts);
     const auto n = static_cast<double>(size);
     return {
         n, static_cast<double>(counts.nodes + counts.points + counts.searches), power(n, 0.695)};
@@ -105,7 +74,7 @@ std::vector<Experiment> nested_trees_experiments() {
         "VERA 3.3.1, proposition 1: n polylog n; here n (L+1)(L+2)(L+3)(L+4)/24 of L levels";
     memory.count = [](std::size_t size, std::uint64_t seed, const CancelFlag* cancel) {
         std::mt19937_64 random(seed);
-        const NestedTrees trees(rectangles_of(size, 2, random), few, {}, cancel);
+        const NestedTrees trees(scattered_rectangles(size, 2, random), few, {}, cancel);
         const auto n = static_cast<double>(size);
         return CountedSize{n, static_cast<double>(trees.bytes()), n * places_of_each(n)};
     };
