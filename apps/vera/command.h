@@ -48,6 +48,7 @@ void add_ladder_command(CLI::App& app, Console& console);
 void add_explain_command(CLI::App& app, Console& console);
 void add_make_command(CLI::App& app, Console& console);
 void add_solve_command(CLI::App& app, Console& console);
+void add_bench_command(CLI::App& app, Console& console);
 
 /// --quiet, --color and --progress, on a subcommand.
 void add_console_options(CLI::App& command, Console& console);

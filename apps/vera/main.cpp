@@ -71,6 +71,7 @@ int main(int argc, char** argv) {
                "  vera explain scene.vera 256 300\n"
                "  vera make ficus -o ficus.vera\n"
                "  vera solve layers.exr -o solved.ctl --exposure 0.9\n"
+               "  vera bench curve --list\n"
                "'vera COMMAND --help' tells more of a command.\n"
                "Exit codes: 0 good, 1 the input is wrong, 2 the command line is wrong,\n"
                "3 the machine failed, 130 interrupted.");
@@ -83,6 +84,7 @@ int main(int argc, char** argv) {
     vera::add_explain_command(app, console);
     vera::add_make_command(app, console);
     vera::add_solve_command(app, console);
+    vera::add_bench_command(app, console);
     ExitCode code = run(app, console, argc, argv);
     // What was printed may still be on its way to a disk that is full.
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {

@@ -26,7 +26,9 @@ TEST(Program, HelpsOnItselfAndEveryCommandWithExamples) {
           "ladder --help",
           "make --help",
           "convert --help",
-          "solve --help"}) {
+          "solve --help",
+          "bench --help",
+          "bench curve --help"}) {
         const ProgramRun run = run_vera(folder, arguments);
         EXPECT_EQ(run.exit_code, 0) << arguments;
         EXPECT_NE(run.out.find("Examples:"), std::string::npos) << arguments;
