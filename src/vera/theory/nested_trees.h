@@ -16,6 +16,7 @@
 #pragma once
 
 #include "vera/theory/iso_rectangle.h"
+#include "vera/theory/nearest_rectangle.h"
 #include "vera/theory/partition_tree.h"
 #include "vera/theory/tree_kind.h"
 
@@ -29,12 +30,8 @@
 
 namespace vera {
 
-/// What is known of a node's rectangles.
-struct NearnessOfNode {
-    std::int32_t lowest_z = 0;
-    std::int32_t highest_z = 0;
-    std::uint32_t least_number = 0;
-};
+/// Which conditions are asked for first.
+enum class ConditionOrder { x_first, y_first };
 
 class NestedTrees {
 public:
@@ -49,7 +46,8 @@ public:
         std::optional<std::size_t> few = {},
         const Progress& progress = {},
         const CancelFlag* cancel = nullptr,
-        TreeKind kind = TreeKind::conjugation);
+        TreeKind kind = TreeKind::conjugation,
+        ConditionOrder order = ConditionOrder::x_first);
 
     /// As brute_force_first_rectangle(), and throws likewise. May be asked from many threads.
     std::optional<std::uint32_t>
@@ -82,7 +80,8 @@ private:
     static double level_bytes_forecast(std::size_t condition, std::size_t count, std::size_t few);
 
     std::vector<IsoRectangle> rectangles_;
-    std::array<std::vector<PlanePoint>, side_condition_count> points_;
+    std::array<SideCondition, side_condition_count> conditions_; ///< of the trees, outermost first
+    std::array<std::vector<PlanePoint>, side_condition_count> points_; ///< for each of them
     std::size_t few_ = 0;
     TreeKind kind_ = TreeKind::conjugation;
     std::unique_ptr<Level> outermost_;

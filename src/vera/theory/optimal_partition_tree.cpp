@@ -55,6 +55,11 @@ public:
 
     PlaneDirection direction() const { return direction_; }
 
+    /// offset(direction(), p) is dot(normal(), p), which on the line is at().
+    PlaneDirection normal() const { return {-direction_.y, direction_.x}; }
+
+    std::int64_t at() const { return at_; }
+
     bool is_below(PlanePoint point) const {
         const std::int64_t at = offset(direction_, point);
         return at != at_ ? at < at_ : dot(direction_, point) > along_;
@@ -262,34 +267,38 @@ private:
 
     /// Which lines cross which part. Each makes its line as much heavier.
     void note_crossings(const Cell& cell, std::vector<Cell>& parts) {
-        std::vector<std::vector<PlanePoint>> corners;
-        corners.reserve(parts.size());
-        for (const Cell& part : parts)
-            corners.push_back(hull_corners(nodes_[part.node]));
-        const double growth = 1 + 1.0 / static_cast<double>(parts_per_cell);
+        std::vector<PlaneHull> hulls;
+        hulls.reserve(parts.size());
+        for (const Cell& part : parts) {
+            const Node& node = nodes_[part.node];
+            hulls.push_back(hull_of(points_, std::span(numbers_).subspan(node.first, node.size())));
+        }
+        constexpr double growth = 1 + 1.0 / static_cast<double>(parts_per_cell);
         for (const std::uint32_t line : cell.lines)
             for (std::size_t i = 0; i < parts.size(); ++i)
-                if (crosses(lines_[line], corners[i])) {
+                if (crosses(lines_[line], hulls[i])) {
                     parts[i].lines.push_back(line);
                     weights_[line] *= growth;
                 }
     }
 
-    static bool crosses(const TestLine& line, const std::vector<PlanePoint>& corners) {
-        const bool below = line.is_below(corners.front());
-        return std::any_of(corners.begin() + 1, corners.end(), [&](PlanePoint corner) {
-            return line.is_below(corner) != below;
-        });
-    }
-
-    std::vector<PlanePoint> hull_corners(const Node& node) const {
-        const PlaneHull hull =
-            hull_of(points_, std::span(numbers_).subspan(node.first, node.size()));
-        std::vector<PlanePoint> corners;
+    bool crosses(const TestLine& line, const PlaneHull& hull) const {
+        // Few corners are looked at one after the other in less time, and so are all where the line
+        // goes through one.
+        if (hull.below.size() + hull.above.size() > 16) {
+            const HullExtent extent = extent_along(line.normal(), points_, hull.below, hull.above);
+            if (line.at() < extent.lowest || extent.highest < line.at())
+                return false;
+            if (extent.lowest < line.at() && line.at() < extent.highest)
+                return true;
+        }
+        const auto is_below = [&](std::uint32_t corner) { return line.is_below(points_[corner]); };
+        const bool first_is_below = is_below(hull.below.front());
         for (const Numbers* chain : {&hull.below, &hull.above})
-            for (const std::uint32_t number : *chain)
-                corners.push_back(points_[number]);
-        return corners;
+            for (const std::uint32_t corner : *chain)
+                if (is_below(corner) != first_is_below)
+                    return true;
+        return false;
     }
 
     TreeShape in_order() {
