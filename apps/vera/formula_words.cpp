@@ -29,4 +29,8 @@ std::vector<std::string> words_to_parse(const CLI::App& app, int argc, const cha
     return words;
 }
 
+std::string typed_word(const std::string& word) {
+    return word.starts_with(" -") ? word.substr(1) : word;
+}
+
 } // namespace vera

@@ -15,4 +15,7 @@ namespace vera {
 /// space before it, and are formulas as any other.
 std::vector<std::string> words_to_parse(const CLI::App& app, int argc, const char* const* argv);
 
+/// Such a word as it was typed.
+std::string typed_word(const std::string& word);
+
 } // namespace vera

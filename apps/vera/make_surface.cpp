@@ -6,6 +6,7 @@
 
 #include <optional>
 
+#include "formula_words.h"
 #include "interrupt.h"
 #include "make_output.h"
 #include "option_values.h"
@@ -65,11 +66,6 @@ range(const std::string& option, const std::vector<std::string>& ends, const For
     return {begin, end};
 }
 
-/// Without the space that words_to_parse() may have put before it.
-std::string typed(const std::string& word) {
-    return word.starts_with(" -") ? word.substr(1) : word;
-}
-
 Surface surface_of(const Request& request) {
     FormulaNames names;
     for (const std::string& let : request.lets)
@@ -81,9 +77,9 @@ Surface surface_of(const Request& request) {
     const auto [u_begin, u_end] = range("--u", request.u, names);
     const auto [v_begin, v_end] = range("--v", request.v, names);
     return {
-        .x = read_formula("X", typed(request.x), formula),
-        .y = read_formula("Y", typed(request.y), formula),
-        .z = read_formula("Z", typed(request.z), formula),
+        .x = read_formula("X", typed_word(request.x), formula),
+        .y = read_formula("Y", typed_word(request.y), formula),
+        .z = read_formula("Z", typed_word(request.z), formula),
         .u_begin = u_begin,
         .u_end = u_end,
         .v_begin = v_begin,

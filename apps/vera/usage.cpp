@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "formula_words.h"
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
@@ -84,6 +85,15 @@ std::optional<std::string> wrong_choice(const CLI::App& command, std::string_vie
         similar ? fmt::format("; did you mean '{}'?", *similar) : "");
 }
 
+/// "--size is given more than once", when that is what is wrong.
+std::optional<std::string> repeated_option(const CLI::ParseError& error) {
+    const std::string_view problem = error.what();
+    const std::size_t end = problem.find(": At Most 1 required");
+    if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) == nullptr || end == std::string::npos)
+        return std::nullopt;
+    return fmt::format("{} is given more than once", problem.substr(0, end));
+}
+
 } // namespace
 
 std::string with_help_hint(const CLI::App& app, std::string_view problem) {
@@ -95,11 +105,13 @@ std::string usage_problem(const CLI::App& app, const CLI::ParseError& error) {
     const bool extra_or_missing = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr
         || dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
     if (extra_or_missing && !unread.empty())
-        return with_help_hint(app, unknown_word(command_in_use(app), unread.front()));
+        return with_help_hint(app, unknown_word(command_in_use(app), typed_word(unread.front())));
     if (&command_in_use(app) == &app && dynamic_cast<const CLI::RequiredError*>(&error) != nullptr)
         return with_help_hint(app, "say what to do: " + list_of(command_names(app)));
     if (const auto choice = wrong_choice(command_in_use(app), error.what()))
         return with_help_hint(app, *choice);
+    if (const auto repeated = repeated_option(error))
+        return with_help_hint(app, *repeated);
     std::string problem = error.what();
     for (char& letter : problem)
         letter = letter == '\n' ? ' ' : letter;

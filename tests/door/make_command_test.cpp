@@ -55,11 +55,14 @@ TEST(MakeCommand, RunsTheExamplesOfItsHelp) {
           "-o ball.vera",
           "make surface u v \"sin(n*(u^2+v^2))/n\" --let n=5 --z-up --u -1 1 --v -1 1 --pixels "
           "0.5 -o waves.vera",
-          "make surface -v \"-u*v\" u --u -1 1 --v -1 1 -o saddle.vera"}) {
+          "make surface -v \"-u*v\" u --u -1 1 --v -1 1 -o saddle.vera",
+          "make turned 0 0 3 0 3 1 1 1 1 2 0 2 -o wheel.vera",
+          "make turned 0 0 1.2 0 1.2 0 2 2 0.8 4 1.3 5 1.3 5 1.15 5 1.15 5 0.65 4 1.85 2 0 0.2 "
+          "--smooth -o vase.vera"}) {
         const ProgramRun run = run_vera(folder, example);
         EXPECT_EQ(run.exit_code, 0) << example << '\n' << run.err;
     }
-    EXPECT_EQ(folder.file_count(), 8U);
+    EXPECT_EQ(folder.file_count(), 12U);
 }
 
 TEST(MakeCommand, TakesFormulasThatBeginWithAMinus) {
@@ -71,6 +74,19 @@ TEST(MakeCommand, TakesFormulasThatBeginWithAMinus) {
     EXPECT_FALSE(brackets.empty());
     EXPECT_EQ(made("-u v \"-cos(v)\""), brackets);
     EXPECT_EQ(made("-- -u v \"-cos(v)\""), brackets);
+}
+
+TEST(MakeCommand, WritesTurnedShapesThatReadWithoutAWarning) {
+    const ScratchFolder folder;
+    ASSERT_EQ(
+        run_vera(
+            folder,
+            "make turned 0 -1 1.2 -1 1.2 -1 2 2 0.8 4 1.3 5 1.3 5 0 5 --smooth -o vase.vera")
+            .exit_code,
+        0);
+    EXPECT_TRUE(holds(folder.read("vase.vera"), "KU"));
+    const ProgramRun checked = run_vera(folder, "check vase.vera --strict");
+    EXPECT_EQ(checked.out, "vase.vera: good\n") << checked.err;
 }
 
 TEST(MakeCommand, SaysWhatIsWrong) {
@@ -109,8 +125,14 @@ TEST(MakeCommand, SaysWhatIsWrong) {
         {"make surface -sine\\(u\\) v u -o a.vera",
          1,
          "X:1:2: error: there is no 'sine'; did you mean 'sin'?\n    -sine(u)\n     ^~~~"},
-        {"make surface u v u -w 3 -o a.vera", 2, "unknown argument"},
-        {"make balls --size 2 --size 3 -o a.vera", 2, "--size"},
+        {"make surface u v u -w 3 -o a.vera", 2, "unknown option '-w'"},
+        {"make turned 0 0 1 -o a.vera", 2, "the profile has 3 numbers, but is made of pairs"},
+        {"make turned 0 0 -o a.vera", 2, "a profile has at least two points"},
+        {"make turned 1 -3 -1 0 -o a.vera", 2, "point 2 of the profile is at -1 0"},
+        {"make turned 0 0 0 1 -o a.vera", 2, "on the axis; give a distance from it"},
+        {"make turned 0 0 nan 1 -o a.vera", 2, "point 2 of the profile"},
+        {"make turned -o a.vera", 2, "PROFILE is required"},
+        {"make balls --size 2 --size 3 -o a.vera", 2, "--size is given more than once"},
         {"make surface u v u*v --u 1 1 -o a.vera", 2, "--u goes from 1 to 1"},
         {"make surface u v u --let u=1 -o a.vera",
          1,

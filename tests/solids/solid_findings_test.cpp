@@ -51,10 +51,8 @@ TEST(SolidFindings, NameSpheresThatPassThroughSomething) {
             + "SP 1 1 0.5  0.2\nSP 0.5 1.5 0.5  0.5\nSP 0.5 2.25 0.5  0.25\nSP 0.5 2 0.5  0.3\n"
               "SP 0.5 0.5 0.5  0.25\n"),
         ElementsAre(
-            "note 8: this sphere passes through the face or mesh of line 5",
-            "note 8: this sphere passes through the face or mesh of line 7",
-            "note 11: this sphere passes through that of line 9",
-            "note 11: this sphere passes through that of line 10"));
+            "note 8: this sphere passes through the face or mesh of line 5 and 1 more",
+            "note 11: this sphere passes through that of line 9 and 1 more"));
     EXPECT_THAT(
         found_in(material + "\nSP 0 0 0 1\nP3 0 0 0  9 0 0  0 9 0\n"),
         ElementsAre("note 3: this face or mesh passes through the sphere of line 2"));

@@ -415,11 +415,27 @@ void GeometryCheck::find_pairs(const Progress& progress, const CancelFlag* cance
             std::min(first, second))];
     };
     for_each_box_pair(boxes, look_at, progress, cancel);
-    const auto word_for = [&](std::uint32_t item) {
-        return geometry_.items[item].kind == ItemKind::sphere ? "sphere" : "face or mesh";
+    const auto is_sphere = [&](std::uint32_t item) {
+        return geometry_.items[item].kind == ItemKind::sphere;
     };
+    const auto word_for = [&](std::uint32_t item) {
+        return is_sphere(item) ? "sphere" : "face or mesh";
+    };
+    // A sphere is told of once: in a heap or a row of them each may meet a hundred.
+    std::map<std::uint32_t, std::size_t> pairs_of_sphere;
+    for (const auto& [pair, count] : pairs)
+        if (is_sphere(std::get<1>(pair)))
+            ++pairs_of_sphere[std::get<1>(pair)];
     for (const auto& [pair, count] : pairs) {
         const auto [kind, item, other] = pair;
+        std::string more;
+        if (is_sphere(item)) {
+            const auto untold = pairs_of_sphere.extract(item);
+            if (untold.empty())
+                continue;
+            if (untold.mapped() > 1)
+                more = fmt::format(" and {} more", untold.mapped() - 1);
+        }
         SolidFinding& finding = add(kind, Severity::note, item);
         finding.other = other;
         const std::string with = item == other
@@ -431,7 +447,7 @@ void GeometryCheck::find_pairs(const Progress& progress, const CancelFlag* cance
                     : fmt::format("the {}", word_for(other)),
                 place_of(other, geometry_.items[item].file));
         finding.problem = kind == Kind::crossing
-            ? fmt::format("this {} passes through {}", word_for(item), with)
+            ? fmt::format("this {} passes through {}{}", word_for(item), with, more)
             : fmt::format("a part of this face or mesh coincides with {}", with);
         finding.remedy = kind == Kind::crossing
             ? ""
