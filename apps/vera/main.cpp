@@ -82,6 +82,7 @@ int main(int argc, char** argv) {
     vera::add_explain_command(app, console);
     vera::add_make_command(app, console);
     vera::add_solve_command(app, console);
+    vera::refuse_odd_values(app);
     ExitCode code = run(app, console, argc, argv);
     // What was printed may still be on its way to a disk that is full.
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
