@@ -80,6 +80,9 @@ Format output_format(const Request& request) {
     if (fs::is_directory(output))
         throw CommandLineError(fmt::format(
             "pictures in the folder '{}' need --format, as in --format png", request.output()));
+    if (!output.has_filename())
+        throw CommandLineError(fmt::format(
+            "there is no folder '{}'; make it first, or name a file", request.output()));
     if (CLI::detail::to_lower(output.extension().string()) == ".gif")
         return {};
     if (const auto format = format_from_extension(output))

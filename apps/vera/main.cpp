@@ -56,6 +56,7 @@ int main(int argc, char** argv) {
     vera::stop_on_interrupt(console);
 
     CLI::App app("VERA turns a scene file into a picture that can be trusted.", "vera");
+    vera::show_whole_usage(app);
     app.set_version_flag("--version", std::string("vera ") + vera::version);
     app.require_subcommand(1);
     app.set_help_all_flag();

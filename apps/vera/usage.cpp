@@ -4,7 +4,9 @@
 #include "vera/base/similar_words.h"
 
 #include <algorithm>
+#include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -182,17 +184,15 @@ std::string wrong_number(const CLI::Option& option) {
     return fmt::format("{}; found {}", takes, quoted_list(option.results()));
 }
 
-/// What is wrong with a value whatever the option is for, or nothing. Empty ones are of variables
-/// of a shell that are not set, and would pass for options that are not given.
-std::string is_a_value(const std::string& value) {
-    if (value.empty())
-        return "is empty";
-    return value.front() == '=' ? "begins with =" : "";
+/// Whether it is none whatever the option is for: nothing, as of a variable of a shell that is not
+/// set, which would pass for an option that is not given; or "=a.png" of "-o=a.png".
+bool is_odd(const CLI::Option& option, const std::string& value) {
+    return value.empty() || (value.front() == '=' && !option.get_positional());
 }
 
 std::string odd_value(const CLI::Option& option) {
     for (const std::string& found : option.results())
-        if (found.starts_with('='))
+        if (found.starts_with('=') && !option.get_positional())
             return fmt::format(
                 "'=' is for long names; write {} {} or {}={}",
                 short_name(option),
@@ -218,15 +218,24 @@ problem_of(const CLI::Option& option, const CLI::App& command, const CLI::ParseE
             "{} takes no value; leave out what stands behind '='", option.get_name());
     const auto most = static_cast<std::size_t>(option.get_items_expected_max());
     const std::vector<std::string> choices = choices_of(option);
-    const bool is_odd = std::ranges::any_of(
-        option.results(), [](const std::string& value) { return !is_a_value(value).empty(); });
-    if (!choices.empty() && option.results().size() <= most && !is_odd)
+    const bool any_odd = std::ranges::any_of(
+        option.results(), [&](const std::string& value) { return is_odd(option, value); });
+    if (!choices.empty() && option.results().size() <= most && !any_odd)
         return wrong_choice(option, choices);
     if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr
         || option.results().size() > most)
         return wrong_count(option);
     return odd_value(option);
 }
+
+class UsageFormatter : public CLI::Formatter {
+public:
+    std::string make_usage(const CLI::App* command, std::string name) const override {
+        if (!command_names(*command).empty())
+            return CLI::Formatter::make_usage(command, std::move(name));
+        return fmt::format("Usage: {} [OPTIONS]\n", synopsis(*command));
+    }
+};
 
 } // namespace
 
@@ -251,10 +260,16 @@ std::string usage_problem(const CLI::App& app, const CLI::ParseError& error) {
     return with_help_hint(app, problem);
 }
 
+void show_whole_usage(CLI::App& app) {
+    app.formatter(std::make_shared<UsageFormatter>());
+}
+
 void refuse_odd_values(CLI::App& app) {
     for (CLI::Option* option : app.get_options())
         if (option->get_items_expected_max() > 0)
-            option->check(is_a_value, "", "");
+            option->check([option](const std::string& value) {
+                return is_odd(*option, value) ? std::string("is none") : std::string();
+            });
         else if (option->get_fnames().empty())
             option->disable_flag_override();
     for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))

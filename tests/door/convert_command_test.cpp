@@ -155,6 +155,7 @@ TEST_F(ConvertCommand, RefusesWhatMakesNoSense) {
     EXPECT_THAT(refusal("a.png"), HasSubstr("takes the picture to read and the one to write"));
     EXPECT_THAT(refusal("a.png b.xyz"), HasSubstr("give --format with one of png"));
     EXPECT_THAT(refusal("a.png b.gfi"), HasSubstr("did you mean 'b.gif'"));
+    EXPECT_THAT(refusal("a.png no/"), HasSubstr("there is no folder 'no/'; make it first"));
     EXPECT_THAT(refusal("a.png -"), HasSubstr("needs --format"));
     EXPECT_THAT(refusal("a.png b.png --format tiff"), HasSubstr("does not know 'tiff'"));
     EXPECT_THAT(refusal("a.png b.png --colors 1"), HasSubstr("from 2 to 256; found 1"));

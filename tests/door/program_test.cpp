@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <map>
+#include <string>
 
 #include "door/program.h"
 
@@ -31,6 +33,20 @@ TEST(Program, HelpsOnItselfAndEveryCommandWithExamples) {
         EXPECT_EQ(run.exit_code, 0) << arguments;
         EXPECT_NE(run.out.find("Examples:"), std::string::npos) << arguments;
         EXPECT_EQ(run.err, "") << arguments;
+    }
+}
+
+TEST(Program, ShowsFirstWhatACommandCannotDoWithout) {
+    const ScratchFolder folder;
+    for (const auto& [command, rest] : std::map<std::string, std::string>{
+             {"render", "SCENE -o PICTURE"},
+             {"explain", "SCENE X Y"},
+             {"convert", "IN... OUT"},
+             {"make surface", "X Y Z -o SCENE"}}) {
+        const std::string help = run_vera(folder, command + " --help").out;
+        EXPECT_NE(
+            help.find("\nUsage: vera " + command + " " + rest + " [OPTIONS]\n"), std::string::npos)
+            << help;
     }
 }
 
