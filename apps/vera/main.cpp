@@ -57,6 +57,7 @@ int main(int argc, char** argv) {
     vera::stop_on_interrupt(console);
 
     CLI::App app("VERA turns a scene file into a picture that can be trusted.", "vera");
+    vera::show_whole_usage(app);
     app.set_version_flag("--version", std::string("vera ") + vera::version);
     app.require_subcommand(1);
     app.set_help_all_flag();
@@ -85,6 +86,7 @@ int main(int argc, char** argv) {
     vera::add_make_command(app, console);
     vera::add_solve_command(app, console);
     vera::add_bench_command(app, console);
+    vera::refuse_odd_values(app);
     ExitCode code = run(app, console, argc, argv);
     // What was printed may still be on its way to a disk that is full.
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {

@@ -20,7 +20,7 @@ ParameterValues checked_values(const Generator& generator, const std::vector<dou
     ParameterValues values(generator);
     for (std::size_t i = 0; i < given.size(); ++i)
         if (const auto problem = values.set(generator.parameters[i], given[i]))
-            throw CommandLineError(*problem);
+            throw CommandLineError("--" + *problem); // it begins with the parameter's name
     return values;
 }
 

@@ -26,6 +26,7 @@ struct Request {
     std::optional<double> deviation;
     std::optional<double> pixels;
     double most_triangles = 2'000'000;
+    double threads = 0;
     bool z_up = false;
     MakeOutput output;
 };
@@ -99,6 +100,7 @@ void make_surface(const Request& request, const Console& console) {
         number_of("--deviation", *request.deviation, 1e-100, 1e100);
     if (request.pixels)
         number_of("--pixels", *request.pixels, 1e-9, 1e9);
+    const ThreadLimit limit = thread_limit(request.threads);
     whole_of("--most-triangles", request.most_triangles, 100, 100'000'000);
     const Surface surface = surface_of(request);
     const Affine3 placement = request.z_up ? z_up_to_y_up() : Affine3{};
@@ -198,6 +200,7 @@ void add_make_surface(CLI::App& make, Console& console) {
         ->capture_default_str();
     command->add_flag("--z-up", request->z_up, "the formulas' z is up");
     add_make_output_options(*command, request->output);
+    add_threads_option(*command, request->threads);
     add_console_options(*command, console);
     command->footer(fmt::format(
         "Formulas: numbers, u, v, pi, e, + - * / ^ and\n  {}.\n"

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/base/output_file.h"
-#include "vera/base/version.h"
-#include "vera/formats/source_text.h"
 #include "vera/image/image_file.h"
 #include "vera/render/render_scene.h"
 
 #include <filesystem>
+#include <optional>
+#include <system_error>
 
 #include "command.h"
 #include "interrupt.h"
 #include "layers_output.h"
 #include "messages.h"
 #include "option_values.h"
+#include "picture_metadata.h"
 #include "prepared_scene.h"
 #include "preview.h"
 #include "progress_display.h"
@@ -26,7 +27,7 @@ namespace vera {
 
 namespace {
 
-constexpr std::uint32_t most_threads = 1024;
+constexpr double jpeg_quality_by_default = 95;
 
 struct Request {
     SceneRequest scene;
@@ -35,7 +36,7 @@ struct Request {
     std::string output;
     std::string format;
     std::string layers;
-    double jpeg_quality = 95;
+    std::optional<double> jpeg_quality;
     double threads = 0;
     bool json = false;
     PreviewStyle preview = PreviewStyle::automatic;
@@ -70,39 +71,6 @@ ImageFileFormat output_format(const Request& request) {
         request.output,
         similar_file(request.output, {".png", ".exr", ".jpg", ".jpeg", ".ppm", ".pfm", ".vra"}),
         format_names()));
-}
-
-/// FNV-1a over all files that the scene was read from: tells two versions of a scene apart.
-std::string scene_hash(const Scene& scene) {
-    std::uint64_t hash = 0xcbf29ce484222325;
-    for (const std::string& path : scene.files) {
-        if (path == "-" || !std::filesystem::is_regular_file(path))
-            continue;
-        const SourceText file(path);
-        for (const char letter : file.text()) {
-            hash ^= static_cast<unsigned char>(letter);
-            hash *= 0x100000001b3;
-        }
-    }
-    return fmt::format("{:016x}", hash);
-}
-
-PictureMetadata metadata(const PreparedScene& prepared) {
-    const auto point = [](Vec3 p) { return fmt::format("{} {} {}", p.x, p.y, p.z); };
-    const Camera& camera = prepared.camera;
-    const bool parallel = camera.projection == Camera::Projection::parallel;
-    return {
-        {"Software", fmt::format("vera {}", version)},
-        {"Scene hash", scene_hash(prepared.scene)},
-        {"Settings", control_text(prepared.settings)},
-        {"Camera",
-         fmt::format(
-             "{} {} {} {} {}",
-             parallel ? "PARALLEL" : "PROJECTION",
-             point(parallel ? camera.direction : camera.viewpoint),
-             point(camera.lower_left),
-             point(camera.lower_right),
-             point(camera.upper_left))}};
 }
 
 nlohmann::ordered_json as_json(const Report& report) {
@@ -169,6 +137,13 @@ void check_layers(const Request& request) {
         throw CommandLineError(
             "--layers are those of rays: leave out --strategy, or give --strategy rays");
     check_layers_name(request.layers);
+    const auto whole_path = [](const std::string& path) {
+        std::error_code unknown;
+        return std::filesystem::weakly_canonical(std::filesystem::absolute(path), unknown);
+    };
+    if (whole_path(request.output) == whole_path(request.layers))
+        throw CommandLineError(fmt::format(
+            "'{}' cannot hold both the picture and its layers; name two files", request.layers));
 }
 
 void print_notes(const SeenParts& seen, const Console& console) {
@@ -267,8 +242,11 @@ RenderResult rendered(
 
 void render(const Request& request, const Console& console) {
     const ImageFileFormat format = output_format(request);
-    const double jpeg_quality = number_of("--quality", request.jpeg_quality, 1, 100);
-    const ThreadLimit limit(whole_of("--threads", request.threads, 0, most_threads));
+    if (request.jpeg_quality && format != ImageFileFormat::jpeg)
+        throw CommandLineError("--quality is for JPEG; write a .jpg, or leave it out");
+    const double jpeg_quality =
+        number_of("--quality", request.jpeg_quality.value_or(jpeg_quality_by_default), 1, 100);
+    const ThreadLimit limit = thread_limit(request.threads);
     check_options(request.strategy, request.scene.picture);
     check_layers(request);
     Report report;
@@ -276,6 +254,8 @@ void render(const Request& request, const Console& console) {
 
     PreparedScene prepared = prepared_scene(request.scene);
     print_diagnostics(prepared.warnings, console);
+    keep_what_was_read(request.scene, prepared.scene, "--output", request.output);
+    keep_what_was_read(request.scene, prepared.scene, "--layers", request.layers);
     // Opened before the long work, so that a folder that is not there shows at once.
     OutputFile file(request.output);
     std::optional<OutputFile> layers_file;
@@ -300,11 +280,11 @@ void render(const Request& request, const Console& console) {
         result.image,
         file,
         format,
-        metadata(prepared),
+        picture_metadata(prepared),
         {.jpeg_quality = static_cast<int>(jpeg_quality)});
     report.write_seconds = watch.lap();
     if (layers_file) {
-        write_layers(prepared, *index, metadata(prepared), *layers_file, console);
+        write_layers(prepared, *index, picture_metadata(prepared), *layers_file, console);
         layers_file->commit();
         report.layers_seconds = watch.lap();
     }
@@ -341,12 +321,9 @@ void add_render_command(CLI::App& app, Console& console) {
             request->layers,
             "EXR file to write beside the picture: its light by source and term")
         ->type_name("FILE");
-    command->add_option("--quality", request->jpeg_quality, "of a JPEG picture, 1 to 100")
-        ->type_name("Q")
-        ->capture_default_str();
-    command->add_option("--threads", request->threads, "0: one for each processor")
-        ->type_name("N")
-        ->capture_default_str();
+    command->add_option("--quality", request->jpeg_quality, "of a JPEG picture, 1 to 100, else 95")
+        ->type_name("Q");
+    add_threads_option(*command, request->threads);
     add_index_options(*command, request->index);
     add_strategy_option(*command, request->strategy);
     command->add_flag("--json", request->json, "rays, tests and times as JSON on standard output");

@@ -30,6 +30,17 @@ std::string shown(Vec3 point) {
     return fmt::format("({} {} {})", point.x, point.y, point.z);
 }
 
+/// Faces that have something in common.
+struct FirstOfMany {
+    std::uint32_t first = ~std::uint32_t{0};
+    std::size_t count = 0;
+
+    void add(std::uint32_t face) {
+        first = std::min(first, face);
+        ++count;
+    }
+};
+
 /// The findings of one geometry.
 class GeometryCheck {
 public:
@@ -135,6 +146,18 @@ private:
         return finding;
     }
 
+    /// About a face, and others perhaps.
+    SolidFinding& add_of_face(Kind kind, Severity severity, std::uint32_t face) {
+        const std::uint32_t item = faces_.faces[face].item;
+        SolidFinding& finding = add(kind, severity, item);
+        if (is_mesh(face)) {
+            const auto first = std::ranges::lower_bound(
+                faces_.faces, item, std::ranges::less(), &SolidFaces::Face::item);
+            finding.triangle = face - static_cast<std::uint32_t>(first - faces_.faces.begin());
+        }
+        return finding;
+    }
+
     void
     add_duplicate(std::uint32_t item, std::uint32_t first, const char* what, Severity severity) {
         SolidFinding& finding = add(Kind::duplicate, severity, item);
@@ -178,11 +201,11 @@ void GeometryCheck::find_duplicates() {
             same.emplace_back(by_hash[i].second, by_hash[first].second);
     }
     std::sort(same.begin(), same.end());
-    std::map<std::uint32_t, std::size_t> twice_in_mesh;
+    std::map<std::uint32_t, FirstOfMany> twice_in_mesh; // by item
     for (const auto& [face, first] : same) {
         const std::uint32_t item = faces_.faces[face].item;
         if (is_mesh(face))
-            ++twice_in_mesh[item];
+            twice_in_mesh[item].add(face);
         else
             add_duplicate(
                 item,
@@ -191,8 +214,9 @@ void GeometryCheck::find_duplicates() {
                 is_outside_behind_loop(face) == is_outside_behind_loop(first) ? Severity::warning
                                                                               : Severity::note);
     }
-    for (const auto& [item, count] : twice_in_mesh) {
-        SolidFinding& finding = add(Kind::duplicate, Severity::note, item);
+    for (const auto& [item, faces] : twice_in_mesh) {
+        const std::size_t count = faces.count;
+        SolidFinding& finding = add_of_face(Kind::duplicate, Severity::note, faces.first);
         finding.problem = fmt::format(
             "{} triangle{} of this mesh stand{} in the same place as another face",
             count,
@@ -278,8 +302,7 @@ void GeometryCheck::check_sides(const Shell& shell) {
 }
 
 void GeometryCheck::add_wrong_inner_point(std::uint32_t face) {
-    SolidFinding& finding =
-        add(Kind::wrong_inner_point, Severity::warning, faces_.faces[face].item);
+    SolidFinding& finding = add_of_face(Kind::wrong_inner_point, Severity::warning, face);
     finding.problem = "the inner point is on the outer side of this face of its solid";
     finding.remedy =
         "move IP to the inside of all faces that it is for; a solid that no point sees "
@@ -293,10 +316,10 @@ void GeometryCheck::add_turned(const std::vector<std::uint32_t>& turned, std::si
     const bool is_told_once = are_all || is_mesh(turned.front());
     for (const std::uint32_t face : turned) {
         const bool changes_picture = is_transparent(item_of(face)) && !are_all;
-        SolidFinding& finding =
-            add(is_told_once ? Kind::turned_solid : Kind::turned_face,
-                changes_picture ? Severity::warning : Severity::note,
-                faces_.faces[face].item);
+        SolidFinding& finding = add_of_face(
+            is_told_once ? Kind::turned_solid : Kind::turned_face,
+            changes_picture ? Severity::warning : Severity::note,
+            face);
         finding.problem = are_all
             ? fmt::format(
                 "the normals of all {} faces of this closed solid point inwards", by_normal)
@@ -322,7 +345,7 @@ void GeometryCheck::check_openness(const Shell& shell) {
         return;
     const std::uint32_t face = shell.open.front().face;
     const Item& item = item_of(face);
-    SolidFinding& finding = add(Kind::open, Severity::note, faces_.faces[face].item);
+    SolidFinding& finding = add_of_face(Kind::open, Severity::note, face);
     finding.problem = fmt::format(
         "this solid is open: {} of its {} edges belong{} to one face alone:",
         shell.open.size(),
@@ -383,7 +406,7 @@ TriangleRelation GeometryCheck::relation_of(const Part& a, const Part& b) const 
 void GeometryCheck::find_pairs(const Progress& progress, const CancelFlag* cancel) {
     constexpr std::size_t most_pairs = 1'000'000;
     using ItemPair = std::tuple<Kind, std::uint32_t, std::uint32_t>;
-    std::map<ItemPair, std::size_t> pairs;
+    std::map<ItemPair, FirstOfMany> pairs;
     std::size_t found = 0;
     std::vector<Part> parts;
     std::vector<Box3> boxes;
@@ -400,6 +423,7 @@ void GeometryCheck::find_pairs(const Progress& progress, const CancelFlag* cance
             parts.push_back({i});
             boxes.push_back(bounds(geometry_.spheres[geometry_.items[i].index]));
         }
+    const auto face_of = [&](const Part& part) { return faces_.triangles[part.triangle].face; };
     const auto look_at = [&](std::uint32_t i, std::uint32_t k) {
         if (found == most_pairs)
             return;
@@ -409,10 +433,12 @@ void GeometryCheck::find_pairs(const Progress& progress, const CancelFlag* cance
         ++found;
         const std::uint32_t first = parts[i].item;
         const std::uint32_t second = parts[k].item;
-        ++pairs[ItemPair(
-            between == TriangleRelation::crossing ? Kind::crossing : Kind::covering,
-            std::max(first, second),
-            std::min(first, second))];
+        const bool are_faces = !parts[i].is_sphere() && !parts[k].is_sphere();
+        pairs[ItemPair(
+                  between == TriangleRelation::crossing ? Kind::crossing : Kind::covering,
+                  std::max(first, second),
+                  std::min(first, second))]
+            .add(are_faces ? std::max(face_of(parts[i]), face_of(parts[k])) : 0);
     };
     for_each_box_pair(boxes, look_at, progress, cancel);
     const auto is_sphere = [&](std::uint32_t item) {
@@ -423,11 +449,12 @@ void GeometryCheck::find_pairs(const Progress& progress, const CancelFlag* cance
     };
     // A sphere is told of once: in a heap or a row of them each may meet a hundred.
     std::map<std::uint32_t, std::size_t> pairs_of_sphere;
-    for (const auto& [pair, count] : pairs)
+    for (const auto& [pair, faces] : pairs)
         if (is_sphere(std::get<1>(pair)))
             ++pairs_of_sphere[std::get<1>(pair)];
-    for (const auto& [pair, count] : pairs) {
+    for (const auto& [pair, faces] : pairs) {
         const auto [kind, item, other] = pair;
+        const std::size_t count = faces.count;
         std::string more;
         if (is_sphere(item)) {
             const auto untold = pairs_of_sphere.extract(item);
@@ -436,7 +463,9 @@ void GeometryCheck::find_pairs(const Progress& progress, const CancelFlag* cance
             if (untold.mapped() > 1)
                 more = fmt::format(" and {} more", untold.mapped() - 1);
         }
-        SolidFinding& finding = add(kind, Severity::note, item);
+        SolidFinding& finding = is_sphere(item) || is_sphere(other)
+            ? add(kind, Severity::note, item)
+            : add_of_face(kind, Severity::note, faces.first);
         finding.other = other;
         const std::string with = item == other
             ? fmt::format("itself, at {} pair{} of triangles", count, count == 1 ? "" : "s")

@@ -30,6 +30,8 @@ struct SolidFinding {
     Severity severity = Severity::note; ///< a warning or a note: a picture can be made of all
     std::size_t subscene = 0;           ///< 0: the main scene; else number subscene - 1
     std::uint32_t item = 0;
+    /// Of a mesh the first of its triangles that this is about, counted from 0.
+    std::optional<std::uint32_t> triangle = {};
     std::optional<std::uint32_t> other = {}; ///< an item of the same geometry
     std::string problem = {};
     std::string remedy = {};
