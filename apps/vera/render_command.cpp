@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "command.h"
+#include "generation_report.h"
 #include "interrupt.h"
 #include "layers_output.h"
 #include "messages.h"
@@ -53,6 +54,7 @@ struct Report {
     std::size_t index_bytes = 0;
     RenderStatistics statistics;
     std::optional<Exposure> exposure;
+    std::optional<std::vector<GenerationCounts>> generations; ///< where primitives find their rays
 };
 
 ImageFileFormat output_format(const Request& request) {
@@ -96,6 +98,8 @@ nlohmann::ordered_json as_json(const Report& report) {
           {"render", report.render_seconds},
           {"layers", report.layers_seconds},
           {"write", report.write_seconds}}}};
+    if (report.generations)
+        json["generations"] = generations_json(*report.generations);
     if (report.exposure)
         json["exposure"] = {
             {"rays", report.exposure->rays},
@@ -133,7 +137,7 @@ std::string as_text(const Report& report, const Request& request) {
 void check_layers(const Request& request) {
     if (request.layers.empty())
         return;
-    if (!request.strategy.is_rays())
+    if (request.strategy.kind != "rays")
         throw CommandLineError(
             "--layers are those of rays: leave out --strategy, or give --strategy rays");
     check_layers_name(request.layers);
@@ -206,33 +210,61 @@ SeenParts surfaces(const Request& request, const PreparedScene& prepared, const 
     return seen;
 }
 
-std::unique_ptr<RayIndex>
-index_for(const Request& request, const PreparedScene& prepared, const Console& console) {
+/// What answers the rays, and the same where each primitive is asked for its rays.
+struct Answering {
+    std::unique_ptr<RayIndex> index;
+    PrimitiveQueryIndex* by_primitive = nullptr;
+};
+
+Answering index_for(const Request& request, const PreparedScene& prepared, const Console& console) {
     const CancellableWork work;
     ProgressDisplay display(console, "index");
+    if (request.strategy.is_by_primitive()) {
+        auto index = primitive_query_index(request.strategy, prepared.scene, console.cancel);
+        PrimitiveQueryIndex* const by_primitive = index.get();
+        return {std::move(index), by_primitive};
+    }
     IndexRequest wanted = request.index;
     // It needs no building.
     if (!needs_index(request.strategy, prepared))
         wanted.kind = "brute";
-    return scene_index(prepared.scene, wanted, display.callback(), console.cancel);
+    return {scene_index(prepared.scene, wanted, display.callback(), console.cancel), nullptr};
 }
 
 RenderResult rendered(
     const PreparedScene& prepared,
     const SeenParts& seen,
-    const RayIndex& index,
+    const Answering& answering,
+    const StrategyRequest& strategy,
     SampleType type,
     const Console& console) {
     const CancellableWork work;
     ProgressDisplay display(console, "render");
     const auto& [scene, settings, camera, warnings] = prepared;
+    if (answering.by_primitive != nullptr) {
+        // Whole generations have one tile, and so what tells how far they are is the index alone.
+        const std::size_t size = generation_size(strategy);
+        if (size == whole_generations)
+            answering.by_primitive->set_progress(display.callback());
+        RenderResult result = render_scene(
+            scene,
+            camera,
+            *answering.index,
+            settings,
+            type,
+            size == whole_generations ? Progress() : display.callback(),
+            &console.cancel,
+            size);
+        answering.by_primitive->set_progress({});
+        return result;
+    }
     if (!seen.of_band)
         return render_scene(
-            scene, camera, index, settings, type, display.callback(), &console.cancel);
+            scene, camera, *answering.index, settings, type, display.callback(), &console.cancel);
     return render_parts(
         scene,
         camera,
-        index,
+        *answering.index,
         {*seen.facets, seen.of_band},
         settings,
         type,
@@ -247,7 +279,7 @@ void render(const Request& request, const Console& console) {
     const double jpeg_quality =
         number_of("--quality", request.jpeg_quality.value_or(jpeg_quality_by_default), 1, 100);
     const ThreadLimit limit = thread_limit(request.threads);
-    check_options(request.strategy, request.scene.picture);
+    check_options(request.strategy, request.index, request.scene.picture);
     check_layers(request);
     Report report;
     Stopwatch watch;
@@ -265,11 +297,14 @@ void render(const Request& request, const Console& console) {
 
     const SeenParts seen = surfaces(request, prepared, console);
     report.surfaces_seconds = watch.lap();
-    const std::unique_ptr<RayIndex> index = index_for(request, prepared, console);
-    report.index_bytes = index->memory();
+    const Answering answering = index_for(request, prepared, console);
+    report.index_bytes = answering.index->memory();
     report.index_seconds = watch.lap();
 
-    const RenderResult result = rendered(prepared, seen, *index, sample_type(format), console);
+    const RenderResult result =
+        rendered(prepared, seen, answering, request.strategy, sample_type(format), console);
+    if (answering.by_primitive != nullptr)
+        report.generations = answering.by_primitive->generations();
     report.statistics = result.statistics;
     report.exposure = result.exposure;
     if (report.exposure)
@@ -284,7 +319,7 @@ void render(const Request& request, const Console& console) {
         {.jpeg_quality = static_cast<int>(jpeg_quality)});
     report.write_seconds = watch.lap();
     if (layers_file) {
-        write_layers(prepared, *index, picture_metadata(prepared), *layers_file, console);
+        write_layers(prepared, *answering.index, picture_metadata(prepared), *layers_file, console);
         layers_file->commit();
         report.layers_seconds = watch.lap();
     }
@@ -296,6 +331,8 @@ void render(const Request& request, const Console& console) {
         fmt::print(request.output == "-" ? stderr : stdout, "{}\n", as_json(report).dump(2));
     else
         print_note(as_text(report, request), console);
+    if (report.generations && !request.json)
+        print_note(generations_text(*report.generations), console);
 }
 
 } // namespace
@@ -334,6 +371,7 @@ void add_render_command(CLI::App& app, Console& console) {
                     "  vera render scene.vera -o draft.png --raster 320x240 --antialias off\n"
                     "  vera render scene.vera -o exact.png --strategy visible\n"
                     "  vera render scene.vera -o scene.png --layers layers.exr\n"
+                    "  vera render scene.vera -o same.png --strategy primitive-query\n"
                     "  vera render bunny.obj -o bunny.exr\n"
                     "  vera render balls.nff --format ppm -o - | display");
 

@@ -3,6 +3,8 @@
 #include "vera/base/available_memory.h"
 #include "vera/theory/primitive_query_index.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -53,8 +55,11 @@ TEST(PrimitiveQueryIndex, AgreesWithBruteForceOnEveryBit) {
         settings.glass = seed % 2 == 0;
         const Scene scene = testing::random_scene(seed, settings);
         PrimitiveQuerySettings query_settings;
-        if (seed % 3 != 0)
-            query_settings.level = seed % 3 == 1 ? 0 : 3;
+        if (seed % 4 == 3)
+            query_settings.level = 3;
+        else
+            query_settings.queries =
+                std::array{RayQueries::automatic, RayQueries::sweep, RayQueries::groups}[seed % 4];
         const PrimitiveQueryIndex index(scene, query_settings);
         expect_like_brute_force(scene, index, some_rays(seed), "seed " + std::to_string(seed));
         if (HasFatalFailure())
@@ -65,7 +70,7 @@ TEST(PrimitiveQueryIndex, AgreesWithBruteForceOnEveryBit) {
         }
     }
     EXPECT_GT(swept, 50000U);
-    EXPECT_LT(apart, swept / 3);
+    EXPECT_LT(apart, swept / 100);
 }
 
 TEST(PrimitiveQueryIndex, AgreesInAnyUnitOfLength) {
@@ -112,7 +117,7 @@ TEST(PrimitiveQueryIndex, AnswersNothingInAnEmptyScene) {
 
 TEST(PrimitiveQueryIndex, CountsNoCrossingsOfRaysFromOnePointOrToOne) {
     const Scene scene = testing::random_scene(4, {});
-    const PrimitiveQueryIndex index(scene, {0, {}, nullptr});
+    const PrimitiveQueryIndex index(scene, {.queries = RayQueries::sweep});
     const Vec3 eye = {0.3, -0.2, 9.1};
     std::vector<QueryRay> from_eye;
     std::vector<QueryRay> to_light;
@@ -146,7 +151,7 @@ TEST(PrimitiveQueryIndex, CountsNoCrossingsOfRaysFromOnePointOrToOne) {
 TEST(PrimitiveQueryIndex, CanBeStopped) {
     const Scene scene = testing::random_scene(4, {});
     CancelFlag cancel;
-    const PrimitiveQueryIndex index(scene, {{}, {}, &cancel});
+    const PrimitiveQueryIndex index(scene, {.cancel = &cancel});
     const auto rays = testing::mixed_rays(1, 1);
     std::vector<Hit> hits(rays.size());
     QueryCounts counts;

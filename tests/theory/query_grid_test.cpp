@@ -144,6 +144,17 @@ TEST(QueryGrid, LetsRaysFromOnePointNotCross) {
     }
 }
 
+TEST(QueryGrid, LetsRaysBeginBehindEverythingThatGoOnBackwards) {
+    const QueryGrid grid({{-1, -1, -1}, {1, 1, 1}});
+    const double inf = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(grid.beginning({{0, 0, 5}, {0, 0, 2}}), 0);
+    EXPECT_EQ(grid.beginning({{0, 0, 5}, {0, 0, 2}, 1}), 0);
+    EXPECT_EQ(grid.beginning({{0, 0, 5}, {0, 0, 2}, -1}), -1);
+    const Ray endless = {{0, 0, 5}, {0, 0, 2}, -inf};
+    EXPECT_LT(point_at(endless, grid.beginning(endless)).z, -1.5);
+    EXPECT_GT(point_at(endless, grid.beginning(endless)).z, -9);
+}
+
 TEST(QueryGrid, SaysWhatItCannotHold) {
     const QueryGrid grid({{-1, -1, -1}, {1, 1, 1}});
     const double inf = std::numeric_limits<double>::infinity();

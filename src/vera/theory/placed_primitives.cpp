@@ -99,8 +99,9 @@ Ray PlacedPrimitives::carried(std::uint32_t place, const Ray& ray) const {
     for (std::uint32_t at = place; at != 0; at = places_[at].caller)
         calls.push_back(places_[at].call);
     Ray result = ray;
-    for (auto call = calls.rbegin(); call != calls.rend(); ++call)
-        result = transformed_ray((*call)->from_parent, result);
+    std::reverse(calls.begin(), calls.end());
+    for (const SubsceneCall* call : calls)
+        result = transformed_ray(call->from_parent, result);
     return result;
 }
 

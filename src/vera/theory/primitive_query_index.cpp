@@ -69,7 +69,7 @@ void PrimitiveQueryIndex::nearest_hits(
     std::vector<Swept> swept(rays.size());
     for (std::size_t i = 0; i < rays.size(); ++i) {
         searches[i].start(coincidence_reach(rays[i].ray));
-        swept[i] = {rays[i].ray, rays[i].ray.t_max};
+        swept[i] = from_its_beginning(rays[i].ray);
     }
     GenerationCounts generation;
     generation.rays = rays.size();
@@ -97,15 +97,25 @@ void PrimitiveQueryIndex::nearest_hits(
     }
 }
 
+PrimitiveQueryIndex::Swept PrimitiveQueryIndex::from_its_beginning(const Ray& ray) const {
+    Swept swept = {ray, ray.t_max, grid_.beginning(ray)};
+    if (swept.start < 0) {
+        swept.ray.origin = point_at(ray, swept.start);
+        swept.ray.t_min = 0;
+        swept.ray.t_max = swept.end = ray.t_max - swept.start;
+    }
+    return swept;
+}
+
 PrimitiveQueryIndex::Swept PrimitiveQueryIndex::from_the_light(const Ray& ray) const {
-    Swept reversed = {ray, ray.t_max - ray.t_min};
+    Swept reversed = {ray, ray.t_max - ray.t_min, 0};
     reversed.ray.origin = point_at(ray, ray.t_max);
     reversed.ray.direction = -ray.direction;
     reversed.ray.t_min = 0;
     reversed.ray.t_max = reversed.end;
     if (grid_.can_hold(ray) && grid_.can_hold(reversed.ray))
         return reversed;
-    return {ray, ray.t_max};
+    return from_its_beginning(ray);
 }
 
 void PrimitiveQueryIndex::transmittances(
@@ -142,23 +152,32 @@ void PrimitiveQueryIndex::answer(
     std::atomic<std::uint64_t> tests = 0;
     const Test counted = [&](std::uint32_t ray, std::uint32_t primitive) {
         ++tests;
-        const double end = std::fmin(swept[ray].end, test(ray, primitive));
+        const double end = std::fmin(swept[ray].end, test(ray, primitive) - swept[ray].start);
         swept[ray].end = end;
         return end;
     };
     look_at_all(swept, counted, generation);
     look_where_rays_begin(swept, counted, generation);
+    constexpr std::size_t sweeps = 6;
+    StageProgress stages(generation_progress(), sweeps);
     for (std::size_t axis = 0; axis < 3; ++axis)
         for (const bool upwards : {true, false})
-            generation.sweeps += sweep_along({axis, upwards}, swept, counted, generation);
+            generation.sweeps +=
+                sweep_along({axis, upwards}, swept, counted, generation, stages.next(1));
     generation.tests = tests;
     counts.rays += generation.rays;
     counts.tests += generation.tests;
     counts.cells += generation.sweeps.nodes;
     const std::lock_guard lock(mutex_);
     generations_.push_back(generation);
-    if (settings_.progress)
-        settings_.progress(1 - std::exp2(-static_cast<double>(generations_.size())));
+}
+
+Progress PrimitiveQueryIndex::generation_progress() const {
+    if (!settings_.progress)
+        return {};
+    const std::lock_guard lock(mutex_);
+    const double left = std::exp2(-static_cast<double>(generations_.size()));
+    return [this, left](double done) { settings_.progress(1 - left + 0.5 * left * done); };
 }
 
 /// What grids cannot hold is tested with everything.
@@ -208,7 +227,8 @@ SweepCounts PrimitiveQueryIndex::sweep_along(
     SweepDirection direction,
     std::vector<Swept>& swept,
     const Test& test,
-    GenerationCounts& generation) const {
+    GenerationCounts& generation,
+    const Progress& progress) const {
     std::vector<SlopedRay> rays;
     std::vector<std::int32_t> last_z;
     std::vector<std::uint32_t> numbers;
@@ -233,15 +253,29 @@ SweepCounts PrimitiveQueryIndex::sweep_along(
         return end == ended ? std::numeric_limits<std::int32_t>::min()
                             : grid_.last_step(swept[ray].ray, end, direction);
     };
-    const std::size_t level = settings_.level
-        ? *settings_.level
-        : std::min(sampled_level(rectangles, rays), largest_useful_level(rays.size()));
+    const std::size_t level = group_level(rectangles, rays);
     SweepCounts counts;
     if (level == 0)
-        sweep(rectangles, {rays, last_z}, meeting, &counts, {}, settings_.cancel);
+        sweep(rectangles, {rays, last_z}, meeting, &counts, progress, settings_.cancel);
     else
-        sweep_groups(level, rectangles, {rays, last_z}, meeting, &counts, {}, settings_.cancel);
+        sweep_groups(
+            level, rectangles, {rays, last_z}, meeting, &counts, progress, settings_.cancel);
     return counts;
+}
+
+std::size_t PrimitiveQueryIndex::group_level(
+    std::span<const IsoRectangle> rectangles, std::span<const SlopedRay> rays) const {
+    if (settings_.level)
+        return *settings_.level;
+    switch (settings_.queries) {
+    case RayQueries::sweep:
+        return 0;
+    case RayQueries::groups:
+        return stated_level(rectangles.size(), rays.size());
+    case RayQueries::automatic:
+        break;
+    }
+    return std::min(sampled_level(rectangles, rays), largest_useful_level(rays.size()));
 }
 
 std::size_t PrimitiveQueryIndex::memory() const {

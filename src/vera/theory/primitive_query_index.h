@@ -27,11 +27,18 @@
 
 namespace vera {
 
+/// How primitives find their rays.
+enum class RayQueries {
+    automatic, ///< in as many groups as crossings that are sampled tell: one where rays do not
+               ///< cross
+    sweep,     ///< in one group
+    groups     ///< in as many as proposition 5 says
+};
+
 struct PrimitiveQuerySettings {
-    /// Rays are swept in 2^level groups (proposition 5); nothing: in as many as crossings that are
-    /// sampled tell, which is one sweep where rays do not cross.
-    std::optional<std::size_t> level;
-    Progress progress;
+    RayQueries queries = RayQueries::automatic;
+    std::optional<std::size_t> level = {}; ///< rays are in 2^level groups, whatever the above says
+    Progress progress = {};
     const CancelFlag* cancel = nullptr;
 };
 
@@ -67,19 +74,20 @@ public:
     /// Of the calls so far, in the order in which they ended.
     std::vector<GenerationCounts> generations() const;
 
-    /// Tells from now on how far a generation is: half of what is left each time, since nobody
-    /// knows how many there will be.
+    /// Tells from now on how far generations are that are asked for one after the other: each takes
+    /// half of what is left, since nobody knows how many there will be.
     void set_progress(Progress progress) { settings_.progress = std::move(progress); }
 
 private:
-    /// A ray as it is swept, and up to which t.
+    /// A ray as it is swept, from t = 0 on, and up to which t.
     struct Swept {
         Ray ray;
         double end = 0;
+        double start = 0; ///< that 0, as a t of the ray that was asked
     };
 
-    /// Tests the ray with the primitive. Returns the t of the swept ray up to which more is asked
-    /// for; -infinity: nothing.
+    /// Tests the ray with the primitive. Returns the t, as the ray was asked, up to which it asks
+    /// for more; -infinity: for nothing.
     using Test = std::function<double(std::uint32_t ray, std::uint32_t primitive)>;
 
     void
@@ -92,7 +100,12 @@ private:
         SweepDirection direction,
         std::vector<Swept>& swept,
         const Test& test,
-        GenerationCounts& counts) const;
+        GenerationCounts& counts,
+        const Progress& progress) const;
+    Progress generation_progress() const;
+    std::size_t
+    group_level(std::span<const IsoRectangle> rectangles, std::span<const SlopedRay> rays) const;
+    Swept from_its_beginning(const Ray& ray) const;
     Swept from_the_light(const Ray& ray) const;
 
     const Scene* scene_;

@@ -55,6 +55,15 @@ bool QueryGrid::can_hold(const Ray& ray) const {
         && direction_size < 1e280 && is_finite(ray.direction);
 }
 
+double QueryGrid::beginning(const Ray& ray) const {
+    if (ray.t_min >= 0)
+        return 0;
+    // Farther along some axis than the largest box on the other side.
+    const double origin_size = max_component(abs(scale_ * (ray.origin - center_)));
+    const double direction_size = scale_ * max_component(abs(ray.direction));
+    return std::fmax(ray.t_min, -(origin_size + 2) / direction_size);
+}
+
 double QueryGrid::reach() const {
     return max_component(abs(center_)) + farthest_origin / scale_;
 }

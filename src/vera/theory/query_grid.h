@@ -62,6 +62,10 @@ public:
     /// What grids can tell of the ray: it has a beginning, and what was said of origins holds.
     bool can_hold(const Ray& ray) const;
 
+    /// The t at which to let a ray begin that goes on backwards: where it does, or, of one without
+    /// an end there, behind all boxes.
+    double beginning(const Ray& ray) const;
+
     /// How far from (0, 0, 0) origins may lie that it can hold, and how large their errors may be:
     /// in the scene's coordinates.
     double reach() const;
