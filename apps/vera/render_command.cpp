@@ -7,6 +7,7 @@
 
 #include <filesystem>
 
+#include "central_strategy.h"
 #include "command.h"
 #include "interrupt.h"
 #include "layers_output.h"
@@ -161,6 +162,12 @@ std::string as_text(const Report& report, const Request& request) {
         duration_text(report.render_seconds));
 }
 
+void check_index(const Request& request) {
+    if (request.strategy.is_central() && request.index.kind != IndexRequest{}.kind)
+        throw CommandLineError(
+            "--strategy central looks rays up in maps and needs no index: leave --index out");
+}
+
 /// Layers are those of rays, and a file of their own.
 void check_layers(const Request& request) {
     if (request.layers.empty())
@@ -185,6 +192,28 @@ void print_notes(const SeenParts& seen, const Console& console) {
                 "{} pairs of facets pass through each other uncut: their common edges may be "
                 "wrong; --strategy rays or depth needs no cutting",
                 seen.penetrating),
+            console);
+}
+
+void print_notes(const CentralIndex& index, const Console& console) {
+    const auto print_cut = [&](double distance, const char* point) {
+        if (distance > 0)
+            print_note(
+                fmt::format(
+                    "what is nearer to {} than {:.3g} is not seen from there: the rest would be "
+                    "too coarse; --strategy rays sees it",
+                    point,
+                    distance),
+                console);
+    };
+    print_cut(index.view_cut_distance(), "the view point");
+    print_cut(index.light_cut_distance(), "a light");
+    if (index.penetrating() > 0)
+        print_note(
+            fmt::format(
+                "{} pairs of facets pass through each other uncut: their common edges may be "
+                "wrong; --strategy rays needs no cutting",
+                index.penetrating()),
             console);
 }
 
@@ -234,6 +263,12 @@ SeenParts surfaces(const Request& request, const PreparedScene& prepared, const 
 std::unique_ptr<RayIndex>
 index_for(const Request& request, const PreparedScene& prepared, const Console& console) {
     const CancellableWork work;
+    if (request.strategy.is_central()) {
+        ProgressDisplay display(console, "maps");
+        auto index = central_index(prepared, display.callback(), console.cancel);
+        print_notes(*index, console);
+        return index;
+    }
     ProgressDisplay display(console, "index");
     IndexRequest wanted = request.index;
     // It needs no building.
@@ -270,6 +305,7 @@ void render(const Request& request, const Console& console) {
     const double jpeg_quality = number_of("--quality", request.jpeg_quality, 1, 100);
     const ThreadLimit limit(whole_of("--threads", request.threads, 0, most_threads));
     check_options(request.strategy, request.scene.picture);
+    check_index(request);
     check_layers(request);
     Report report;
     Stopwatch watch;
@@ -356,6 +392,7 @@ void add_render_command(CLI::App& app, Console& console) {
                     "  vera render still_life.vera -c still_life.ctl -o still_life.png\n"
                     "  vera render scene.vera -o draft.png --raster 320x240 --antialias off\n"
                     "  vera render scene.vera -o exact.png --strategy visible\n"
+                    "  vera render scene.vera -o maps.png --strategy central --depth 1\n"
                     "  vera render scene.vera -o scene.png --layers layers.exr\n"
                     "  vera render bunny.obj -o bunny.exr\n"
                     "  vera render balls.nff --format ppm -o - | display");

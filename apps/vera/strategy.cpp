@@ -111,9 +111,10 @@ void add_strategy_option(CLI::App& command, StrategyRequest& request) {
             "--strategy",
             request.kind,
             "what finds the visible surfaces: rays; visible: their exact outlines, each filled by "
-            "its exact part of a pixel; depth: a depth buffer")
-        ->type_name("rays|visible|depth")
-        ->check(CLI::IsMember({"rays", "visible", "depth"}).description(""))
+            "its exact part of a pixel; depth: a depth buffer; central: rays that are looked up in "
+            "maps of what the viewer and each light sees, for scenes without mirrors and glass")
+        ->type_name("rays|visible|depth|central")
+        ->check(CLI::IsMember({"rays", "visible", "depth", "central"}).description(""))
         ->capture_default_str();
 }
 

@@ -16,11 +16,14 @@ class App;
 
 namespace vera {
 
-/// What finds the visible surfaces of a picture (section 3.4 of the paper).
+/// What finds the visible surfaces of a picture (sections 3.2 and 3.4 of the paper).
 struct StrategyRequest {
     std::string kind = "rays";
 
-    bool is_rays() const { return kind == "rays"; }
+    bool is_central() const { return kind == "central"; }
+
+    /// Whether rays through pixels find what is seen.
+    bool is_rays() const { return kind == "rays" || is_central(); }
 };
 
 /// --strategy
@@ -37,7 +40,8 @@ struct SeenParts {
     double cut_nearness = 0;     ///< as in ScreenScene
 };
 
-/// For any strategy but rays. Throws Cancelled, and InputError as facets() does.
+/// For any strategy that sends no rays through pixels. Throws Cancelled, and InputError as facets()
+/// does.
 SeenParts seen_parts(
     const StrategyRequest& request,
     const PreparedScene& prepared,

@@ -179,7 +179,7 @@ TEST(Strategy, RefusesWhatMeansNothingToIt) {
         const char* message;
     } wrong[] = {
         {"--strategy dpeth",
-         "--strategy takes rays, visible or depth; found 'dpeth'; did you mean 'depth'?"},
+         "--strategy takes rays, visible, depth or central; found 'dpeth'; did you mean 'depth'?"},
         {"--strategy visible --samples 16",
          "--strategy visible takes exact areas, not --samples: leave it out"},
         {"--strategy depth --tolerance 0.1",

@@ -50,8 +50,9 @@ enum class LocatorKind : std::uint8_t {
 };
 
 /// All of them take O(m log m) to build, but for a grid's lists, and answer the same. They need the
-/// map no longer. Throws Cancelled, and std::runtime_error where borders cross each other (see
-/// VisibleMap::joined) or the memory that is available does not suffice.
+/// map no longer. Throws Cancelled, std::runtime_error where the memory that is available does not
+/// suffice, and, but for a grid, CrossingBorders where they cannot be told from below to above:
+/// that may happen where things penetrate each other (see VisibleMap::joined).
 std::unique_ptr<RegionLocator>
 make_locator(LocatorKind kind, const VisibleMap& map, const CancelFlag* cancel = nullptr);
 
