@@ -4,6 +4,7 @@
 #include "vera/render/render_scene.h"
 #include "vera/theory/central_index.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -143,7 +144,7 @@ TEST(CentralIndex, GivesTheSameBitsForAnyNumberOfThreads) {
     SceneMaker maker = tables();
     const Scene& scene = maker.finish();
     std::optional<Image> expected;
-    for (const std::size_t threads : {1, 2, 7}) {
+    for (const std::size_t threads : std::array<std::size_t, 3>{1, 2, 7}) {
         const ThreadLimit limit(threads);
         PictureSettings settings = settings_of_tests();
         settings.antialiasing.on = true;
