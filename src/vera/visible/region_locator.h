@@ -56,8 +56,9 @@ enum class LocatorKind : std::uint8_t {
 std::unique_ptr<RegionLocator>
 make_locator(LocatorKind kind, const VisibleMap& map, const CancelFlag* cancel = nullptr);
 
-/// The most that make_locator() takes for so many borders, in bytes.
-double locator_bytes(LocatorKind kind, double borders);
+/// What make_locator() takes for so many sides of rings, in bytes, while it builds: somewhat more
+/// than was measured. A grid of borders that are as long as the picture takes more.
+double locator_bytes(LocatorKind kind, double sides);
 
 /// The reference of all: looks at each border.
 std::unique_ptr<RegionLocator> make_brute_force_locator(const VisibleMap& map);
