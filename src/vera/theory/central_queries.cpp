@@ -74,7 +74,7 @@ std::optional<CubePlace> cube_place(Vec3 direction) {
     const double up = direction[(axis + 2) % 3] / size[axis];
     if (!std::isfinite(across) || !std::isfinite(up))
         return std::nullopt;
-    constexpr double half = screen_size / 2;
+    constexpr double half = 0.5 * screen_size;
     return CubePlace{
         2 * axis + (direction[axis] < 0 ? 1 : 0), half + half * across, half - half * up};
 }
