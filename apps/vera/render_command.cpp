@@ -7,6 +7,7 @@
 #include <optional>
 #include <system_error>
 
+#include "central_strategy.h"
 #include "command.h"
 #include "generation_report.h"
 #include "interrupt.h"
@@ -167,6 +168,28 @@ void print_notes(const SeenParts& seen, const Console& console) {
             console);
 }
 
+void print_notes(const CentralIndex& index, const Console& console) {
+    const auto print_cut = [&](double distance, const char* point) {
+        if (distance > 0)
+            print_note(
+                fmt::format(
+                    "what is nearer to {} than {:.3g} is not seen from there: the rest would be "
+                    "too coarse; --strategy rays sees it",
+                    point,
+                    distance),
+                console);
+    };
+    print_cut(index.view_cut_distance(), "the view point");
+    print_cut(index.light_cut_distance(), "a light");
+    if (index.penetrating() > 0)
+        print_note(
+            fmt::format(
+                "{} pairs of facets pass through each other uncut: their common edges may be "
+                "wrong; --strategy rays needs no cutting",
+                index.penetrating()),
+            console);
+}
+
 /// What the exposure measurement found, as a photographer would want to hear it.
 void print_exposure(const Exposure& exposure, const Console& console) {
     if (exposure.rays == 0) {
@@ -218,6 +241,12 @@ struct Answering {
 
 Answering index_for(const Request& request, const PreparedScene& prepared, const Console& console) {
     const CancellableWork work;
+    if (request.strategy.is_central()) {
+        ProgressDisplay display(console, "maps");
+        auto index = central_index(prepared, display.callback(), console.cancel);
+        print_notes(*index, console);
+        return {std::move(index)};
+    }
     ProgressDisplay display(console, "index");
     if (request.strategy.is_by_primitive()) {
         auto index = primitive_query_index(request.strategy, prepared.scene, console.cancel);
@@ -370,6 +399,7 @@ void add_render_command(CLI::App& app, Console& console) {
                     "  vera render still_life.vera -c still_life.ctl -o still_life.png\n"
                     "  vera render scene.vera -o draft.png --raster 320x240 --antialias off\n"
                     "  vera render scene.vera -o exact.png --strategy visible\n"
+                    "  vera render scene.vera -o maps.png --strategy central --depth 1\n"
                     "  vera render scene.vera -o scene.png --layers layers.exr\n"
                     "  vera render scene.vera -o same.png --strategy primitive-query\n"
                     "  vera render bunny.obj -o bunny.exr\n"

@@ -112,10 +112,12 @@ void add_strategy_option(CLI::App& command, StrategyRequest& request) {
             "--strategy",
             request.kind,
             "what finds the visible surfaces: rays; visible: their exact outlines, each filled by "
-            "its exact part of a pixel; depth: a depth buffer; primitive-query: rays, whole "
-            "generations of them found for each primitive")
-        ->type_name("rays|visible|depth|primitive-query")
-        ->check(CLI::IsMember({"rays", "visible", "depth", "primitive-query"}).description(""))
+            "its exact part of a pixel; depth: a depth buffer; central: rays that are looked up in "
+            "maps of what the viewer and each light sees, for scenes without mirrors and glass; "
+            "primitive-query: rays, whole generations of them found for each primitive")
+        ->type_name("rays|visible|depth|central|primitive-query")
+        ->check(CLI::IsMember({"rays", "visible", "depth", "central", "primitive-query"})
+                    .description(""))
         ->capture_default_str();
     command
         .add_option(
@@ -150,6 +152,9 @@ void check_options(
         if (is_given)
             throw CommandLineError(fmt::format(
                 "{0} is of --strategy primitive-query: give that, or leave {0} out", option));
+    if (request.is_central() && index.kind != "auto")
+        throw CommandLineError(
+            "--strategy central looks rays up in maps and needs no index: leave --index out");
     if (request.is_rays())
         return;
     if (options.tolerance)

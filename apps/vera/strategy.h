@@ -20,14 +20,17 @@ class App;
 
 namespace vera {
 
-/// What finds the visible surfaces of a picture (section 3.4 of the paper).
+/// What finds the visible surfaces of a picture (sections 3.2 to 3.4 of the paper).
 struct StrategyRequest {
     std::string kind = "rays";
     std::string queries;                   ///< how primitives find their rays; empty: not given
     std::optional<double> generation_size; ///< as it was typed
 
-    /// Whether rays find what is seen, asked one by one or by primitive.
-    bool is_rays() const { return kind == "rays" || is_by_primitive(); }
+    /// Whether rays find what is seen: through an index, by maps, or by primitive.
+    bool is_rays() const { return kind == "rays" || is_central() || is_by_primitive(); }
+
+    /// Whether rays are looked up in maps (section 3.2 of the paper).
+    bool is_central() const { return kind == "central"; }
 
     /// Whether each primitive is asked for its rays (section 3.3.2 of the paper).
     bool is_by_primitive() const { return kind == "primitive-query"; }
@@ -56,7 +59,8 @@ struct SeenParts {
     double cut_nearness = 0;     ///< as in ScreenScene
 };
 
-/// For any strategy but rays. Throws Cancelled, and InputError as facets() does.
+/// For any strategy that sends no rays through pixels. Throws Cancelled, and InputError as facets()
+/// does.
 SeenParts seen_parts(
     const StrategyRequest& request,
     const PreparedScene& prepared,

@@ -130,6 +130,42 @@ TEST(RegionLocators, AgreeOnMapsOfThePlaneSweepAndOfThingsThatWereCutWhereTheyPe
     }
 }
 
+TEST(RegionLocators, FindWhatIsSeenWhereWaysRoundItHadToBeJoined) {
+    std::mt19937_64 random(5);
+    int joined = 0;
+    for (std::uint64_t seed = 0; seed < 40; ++seed) {
+        ScreenScene tangle = testing::tangle(seed, 10 + seed, seed % 2 == 0 ? 0 : 8);
+        const WholePieces whole = whole_pieces(tangle);
+        const VisibleMap map = visible_map(tangle, whole.pieces);
+        if (map.joined == 0)
+            continue;
+        ++joined;
+        std::vector<std::unique_ptr<RegionLocator>> locators;
+        for (const auto& [kind, name] : kinds)
+            try {
+                locators.push_back(make_locator(kind, map));
+            } catch (const CrossingBorders&) {
+                EXPECT_NE(kind, LocatorKind::grid);
+            }
+        for (int i = 0; i < 300; ++i) {
+            const auto x = static_cast<std::int64_t>(random() % (2 * std::uint64_t{screen_size}));
+            const auto y = static_cast<std::int64_t>(random() % (2 * std::uint64_t{screen_size}));
+            const SeenAt expected = seen_at(tangle, x, y);
+            if (expected.has_side_at)
+                continue;
+            LocatorSteps steps;
+            for (const auto& locator : locators) {
+                const std::uint32_t region = locator->region_at(
+                    map_point(static_cast<double>(x) / 2, static_cast<double>(y) / 2), steps);
+                const std::uint32_t source =
+                    region == no_region ? no_source : map.regions[region].source;
+                ASSERT_EQ(source, expected.source) << "seed " << seed << " " << x << " " << y;
+            }
+        }
+    }
+    EXPECT_GT(joined, 10);
+}
+
 TEST(RegionLocators, FindWhatAskingEveryTriangleTells) {
     std::mt19937_64 random(1);
     int compared = 0;

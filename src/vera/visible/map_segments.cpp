@@ -38,11 +38,67 @@ struct Numbered {
     std::uint32_t vertex = 0; ///< of the map
 };
 
+/// One side of a segment.
+struct Half {
+    std::uint32_t low = 0; ///< of the segment's ends, which is vertices of the map
+    std::uint32_t high = 0;
+    bool is_above = false; ///< lies to the left of the way from low to high
+    std::uint32_t region = 0;
+
+    friend auto operator<=>(const Half&, const Half&) = default;
+};
+
+Half half_of(std::uint32_t from, std::uint32_t to, std::uint32_t region) {
+    return {std::min(from, to), std::max(from, to), from < to, region};
+}
+
+/// The sides that are left of those between the same ends, and more of them: what is above one and
+/// below another of them is not parted by them.
+MapSegment merged(std::span<const Half> halves) {
+    MapSegment result = {halves[0].low, halves[0].high};
+    const auto count = [&](bool is_above, std::uint32_t region) {
+        return std::count_if(halves.begin(), halves.end(), [&](const Half& half) {
+            return half.is_above == is_above && half.region == region;
+        });
+    };
+    for (const Half& half : halves)
+        if (count(half.is_above, half.region) > count(!half.is_above, half.region))
+            (half.is_above ? result.above : result.below) = half.region;
+    return result;
+}
+
+/// Where ways round what is seen had to be joined by straight ones, these often lie upon borders.
+std::vector<MapSegment> merged_sides(
+    const VisibleMap& map, const std::vector<MapSegment>& sides, std::vector<Half> joined) {
+    std::vector<Half> halves = std::move(joined);
+    const auto add = [&](std::uint32_t from, std::uint32_t to, std::uint32_t region) {
+        if (region != no_region)
+            halves.push_back(half_of(from, to, region));
+    };
+    for (const MapSegment& side : sides) {
+        add(side.begin, side.end, side.above);
+        add(side.end, side.begin, side.below);
+    }
+    std::sort(halves.begin(), halves.end());
+    std::vector<MapSegment> result;
+    for (std::size_t first = 0, last = 0; first < halves.size(); first = last) {
+        while (last < halves.size() && halves[last].low == halves[first].low
+               && halves[last].high == halves[first].high)
+            ++last;
+        const MapSegment segment = merged(std::span(halves).subspan(first, last - first));
+        if (segment.above != segment.below
+            && map.vertices[segment.begin] != map.vertices[segment.end])
+            result.push_back(segment);
+    }
+    return result;
+}
+
 /// The sides of the map's rings, each border on that side which has the smaller region.
 std::vector<MapSegment> sides_of(const VisibleMap& map, const CancelFlag* cancel) {
     std::vector<MapSegment> sides;
     std::vector<std::size_t> joined = map.joined_sides;
     std::sort(joined.begin(), joined.end());
+    std::vector<Half> joined_halves;
     const LongLoop loop(map.rings.size(), {}, cancel);
     for (std::size_t number = 0; number < map.rings.size(); ++number) {
         loop.turn(number);
@@ -50,16 +106,18 @@ std::vector<MapSegment> sides_of(const VisibleMap& map, const CancelFlag* cancel
         const auto vertices = map.vertices_of(ring);
         for (std::size_t i = 0; i < vertices.size(); ++i) {
             const std::size_t place = ring.first + i;
+            const std::uint32_t from = vertices[i];
+            const std::uint32_t to = vertices[i + 1 == vertices.size() ? 0 : i + 1];
             const std::uint32_t across = map.ring_across[place];
-            if (ring.region < across && !std::binary_search(joined.begin(), joined.end(), place))
-                sides.push_back(
-                    {vertices[i],
-                     vertices[i + 1 == vertices.size() ? 0 : i + 1],
-                     ring.region,
-                     across});
+            if (std::binary_search(joined.begin(), joined.end(), place))
+                joined_halves.push_back(half_of(from, to, ring.region));
+            else if (ring.region < across)
+                sides.push_back({from, to, ring.region, across});
         }
     }
-    return sides;
+    if (joined.empty())
+        return sides;
+    return merged_sides(map, sides, std::move(joined_halves));
 }
 
 } // namespace

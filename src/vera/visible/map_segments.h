@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <stdexcept>
 #include <vector>
 
 namespace vera {
@@ -35,6 +36,13 @@ int order(const MapPoint& a, const MapPoint& b);
 /// Positive where the point lies above the way from one point to another in the direction of
 /// ascending x, to its left; 0 on its line.
 int side(const MapPoint& from, const MapPoint& to, const MapPoint& point);
+
+/// Thrown by structures that need borders to meet at points alone.
+class CrossingBorders : public std::runtime_error {
+public:
+    CrossingBorders()
+        : std::runtime_error("borders of what is seen cross each other") {}
+};
 
 /// A part of a border, from the end that comes first in the order of points. Segments meet at their
 /// ends, or the end of one touches another.
@@ -70,8 +78,8 @@ struct MapSegments {
     }
 };
 
-/// The borders of the map, but for straight ways that join what does not close (see
-/// VisibleMap::joined). Throws Cancelled.
+/// The borders of the map. Where ways round what is seen had to be joined by straight ones (see
+/// VisibleMap::joined), those are among them, and may cross others. Throws Cancelled.
 MapSegments map_segments(const VisibleMap& map, const CancelFlag* cancel = nullptr);
 
 } // namespace vera

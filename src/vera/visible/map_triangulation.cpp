@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <set>
-#include <stdexcept>
 
 namespace vera {
 
@@ -84,10 +83,6 @@ private:
     std::uint32_t region_ = no_region; ///< of the gap at hand
 };
 
-[[noreturn]] void throw_crossing() {
-    throw std::runtime_error("borders of what is seen cross each other");
-}
-
 Sweep::Sweep(const MapSegments& map, MapTriangulation& result)
     : result_(result)
     , status_(Below{map_, result.steps}) {
@@ -153,7 +148,7 @@ std::uint32_t Sweep::seen_up(std::uint32_t point, std::uint32_t from) {
 void Sweep::close(std::uint32_t point, const Gap& gap) {
     region_ = gap.region;
     if (seen_up(point, gap.lowest) != gap.highest)
-        throw_crossing();
+        throw CrossingBorders();
 }
 
 /// What begins at the point, after the last links that it sees below and above it in the gap of the
@@ -189,7 +184,7 @@ void Sweep::take_point(std::uint32_t point) {
     const MapPoint& at = map_.points[point];
     const auto [first, behind] = status_.equal_range(at);
     if (first == status_.begin() || behind == status_.end())
-        throw_crossing();
+        throw CrossingBorders();
     const std::uint32_t bottom = *std::prev(first);
     std::uint32_t lower = none;
     std::uint32_t higher = none;
@@ -229,7 +224,7 @@ void Sweep::take_point(std::uint32_t point) {
         status_.erase(first, behind);
     }
     if (to_end_[point] != 0)
-        throw_crossing();
+        throw CrossingBorders();
     begin_gaps(point, bottom, lower, higher, highest);
 }
 

@@ -21,7 +21,7 @@ struct MapTriangulation {
 
 /// By a sweep from the left that joins each point with all that it sees of the points before it, in
 /// the gaps between the borders beside it (Hertel and Mehlhorn 1983): O(m log m). Throws Cancelled,
-/// and std::runtime_error where borders cross each other.
+/// and CrossingBorders.
 MapTriangulation triangulation(const MapSegments& segments, const CancelFlag* cancel = nullptr);
 
 } // namespace vera

@@ -50,13 +50,15 @@ enum class LocatorKind : std::uint8_t {
 };
 
 /// All of them take O(m log m) to build, but for a grid's lists, and answer the same. They need the
-/// map no longer. Throws Cancelled, and std::runtime_error where borders cross each other (see
-/// VisibleMap::joined) or the memory that is available does not suffice.
+/// map no longer. Throws Cancelled, std::runtime_error where the memory that is available does not
+/// suffice, and, but for a grid, CrossingBorders where they cannot be told from below to above:
+/// that may happen where things penetrate each other (see VisibleMap::joined).
 std::unique_ptr<RegionLocator>
 make_locator(LocatorKind kind, const VisibleMap& map, const CancelFlag* cancel = nullptr);
 
-/// The most that make_locator() takes for so many borders, in bytes.
-double locator_bytes(LocatorKind kind, double borders);
+/// What make_locator() takes for so many sides of rings, in bytes, while it builds: somewhat more
+/// than was measured. A grid of borders that are as long as the picture takes more.
+double locator_bytes(LocatorKind kind, double sides);
 
 /// The reference of all: looks at each border.
 std::unique_ptr<RegionLocator> make_brute_force_locator(const VisibleMap& map);

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <numeric>
 #include <span>
-#include <stdexcept>
 
 namespace vera {
 
@@ -119,7 +118,7 @@ std::uint32_t SlabTreeBuilder::merged(std::uint32_t lower, std::uint32_t upper) 
 
 std::uint32_t SlabTreeBuilder::erased(std::uint32_t node, std::uint32_t segment) {
     if (node == no_node)
-        throw std::runtime_error("borders of what is seen cross each other");
+        throw CrossingBorders();
     if (tree_.nodes_[node].segment == segment)
         return merged(child(node, Side::below), child(node, Side::above));
     const Side side = is_above(segment, node) ? Side::above : Side::below;

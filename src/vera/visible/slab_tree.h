@@ -22,7 +22,7 @@ namespace vera {
 
 class SlabTree : public RegionLocator {
 public:
-    /// Throws Cancelled, and std::runtime_error where borders cross each other.
+    /// Throws Cancelled, and CrossingBorders.
     explicit SlabTree(MapSegments segments, const CancelFlag* cancel = nullptr);
 
     std::uint32_t region_at(const MapPoint& point, LocatorSteps& steps) const override;
