@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Makes docs/gallery: the figures of the VERA paper, each as a picture and as a drawing, with what they cost.
 
-A figure whose scene is not in scenes/ is left out. With --check nothing is made: the page must name every
+A figure whose scene is not in scenes/ is left out. With the numbers of figures, such as 2c, only these are made
+anew, and their parts of the page. With --check nothing is made: the page must name every
 figure that is there, and the files must be as small as the repository wants them.
 
-usage: gallery.py [--vera PROGRAM] [--check]
+usage: gallery.py [--vera PROGRAM] [--check] [FIGURE ...]
 """
 
 import argparse
@@ -25,6 +26,10 @@ LINES = ["--style", "lines", "--precision", "0.1", "--line", "silhouette:width=1
          "--line", "crease:width=0.5"]
 SHADED = ["--style", "shaded", "--deviation", "0.5", "--precision", "0.1", "--color-tolerance", "6"]
 
+# For leaves by the thousand.
+THIN = ["--style", "lines", "--precision", "0.1", "--line", "silhouette:width=0.5",
+        "--line", "crease:width=0.3"]
+
 COARSE = ["--style", "shaded", "--deviation", "2", "--precision", "0.1", "--color-tolerance", "24"]
 
 # The figure, its title, the scene, the raster, the drawing's options, and what there is to see.
@@ -39,14 +44,14 @@ FIGURES = [
     ("2b", "The tree of grids", "gambit", "480x320", None,
      "The cells of the grids of figure 2d's board that hold something, from the second level on: the pieces' grids stand in the "
      "cells of the game's, and the battlements' in those of the rooks."),
-    ("2c", "A ficus", "ficus", "360x480", LINES, "Grown by rules, of thousands of triangles."),
+    ("2c", "A ficus", "ficus", "360x480", LINES, "Grown leaf by leaf, each of a thousand triangles."),
     ("2d", "A game of chess", "gambit", "480x320", LINES,
      "The pieces are turned from straight lines, arcs and conic sections, the knights too. The drawing has their silhouettes and "
      "creases, and arcs where they are arcs."),
     ("2e", "Difficult materials", "bearing", "450x300", LINES,
      "Chromed steel, brass, copper, glass and lacquer show what is around them, and so the scene is a whole room with windows "
      "and lamps behind the viewer."),
-    ("2f", "A tree", "tree", "480x360", LINES, "Made by a procedure that calls itself."),
+    ("2f", "A tree", "tree", "480x360", THIN, "Made by a procedure that calls itself."),
     ("2g", "A cooling rotor", "rotor", "320x240", COARSE,
      "A turned hub with nine blades and nine shorter ones between them, of patches whose normals are interpolated. In the "
      "drawing each face is a gradient, and each shadow an area with an exact border."),
@@ -211,6 +216,17 @@ def write_page(program):
     (FOLDER / "README.md").write_text("\n".join(texts).rstrip() + "\n", encoding="utf-8")
 
 
+def write_figures(program, numbers):
+    """Of a page that is there."""
+    path = FOLDER / "README.md"
+    for figure in [figure for figure in shown() if figure[0] in numbers]:
+        page = path.read_text(encoding="utf-8")
+        begin = page.index(f"## {figure[0]}. ")
+        end = page.find("\n## ", begin)
+        rest = "" if end < 0 else page[end:]
+        path.write_text(page[:begin] + figure_text(figure, make(program, figure)).rstrip() + "\n" + rest, encoding="utf-8")
+
+
 def check():
     """What is wrong with the page and its files, in lines."""
     page = (FOLDER / "README.md").read_text(encoding="utf-8")
@@ -232,8 +248,12 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--vera", default=str(ROOT / "build" / "bin" / "vera"), help="the program")
     parser.add_argument("--check", action="store_true", help="look whether the page is whole, and make nothing")
+    parser.add_argument("figures", nargs="*", metavar="FIGURE", choices=[[], *(figure[0] for figure in shown())],
+                        help="make only these anew, such as 2c")
     arguments = parser.parse_args()
-    if not arguments.check:
+    if arguments.figures:
+        write_figures(arguments.vera, arguments.figures)
+    elif not arguments.check:
         write_page(arguments.vera)
     problems = check()
     for problem in problems:

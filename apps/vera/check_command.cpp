@@ -8,12 +8,14 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
 
 #include "command.h"
 #include "interrupt.h"
+#include "item_places.h"
 #include "messages.h"
 #include "prepared_scene.h"
 #include "progress_display.h"
@@ -25,13 +27,33 @@ namespace vera {
 
 namespace {
 
-/// As git writes it and `patch -p1` and `git apply` read it. An absolute path stays as it is.
-std::string diff_name(const char* side, const std::string& path) {
-    const std::filesystem::path normal = std::filesystem::path(path).lexically_normal();
-    const std::string name =
-        normal.is_absolute() ? normal.string() : fmt::format("{}/{}", side, normal.string());
+/// What the file is called in the working folder; nothing where it lies outside of that.
+std::optional<std::string> name_in_working_folder(const std::string& path) {
+    const std::filesystem::path name =
+        std::filesystem::absolute(path).lexically_normal().lexically_relative(
+            std::filesystem::current_path());
+    if (name.empty() || *name.begin() == "..")
+        return std::nullopt;
+    return name.string();
+}
+
+/// "a/scene.vera", as git writes it and `patch -p1` and `git apply` read it: they take neither
+/// absolute paths nor ones that lead out of the folder.
+std::string diff_name(const char* side, const std::string& file) {
     // A tab ends names that hold spaces.
-    return name.find(' ') == std::string::npos ? name : name + '\t';
+    return fmt::format("{}/{}{}", side, file, file.find(' ') == std::string::npos ? "" : "\t");
+}
+
+void print_diff(
+    const std::string& path,
+    std::string_view text,
+    const SceneFixes& fixes,
+    const Console& console) {
+    const auto inside = name_in_working_folder(path);
+    const std::string name = inside.value_or(std::filesystem::path(path).filename().string());
+    fmt::print("{}", unified_diff(text, fixes.edits, diff_name("a", name), diff_name("b", name)));
+    if (!inside && !fixes.edits.empty())
+        print_note(fmt::format("the diff is for 'patch -p1' in the folder of '{}'", path), console);
 }
 
 struct Request {
@@ -39,6 +61,7 @@ struct Request {
     bool strict = false;
     bool fix = false;
     std::string write; ///< where the corrected text goes; empty: nowhere
+    double threads = 0;
     bool json = false;
 };
 
@@ -47,6 +70,7 @@ class SolidDiagnostics {
 public:
     SolidDiagnostics(const Scene& scene, bool with_notes, std::vector<Diagnostic>& diagnostics)
         : scene_(scene)
+        , places_(scene)
         , with_notes_(with_notes)
         , diagnostics_(diagnostics)
         , known_(diagnostics.size()) {}
@@ -59,11 +83,12 @@ public:
         }
         if (++counts_[{finding.kind, finding.severity}] > most_of_a_kind)
             return;
-        Diagnostic diagnostic = diagnostic_of(
+        Diagnostic diagnostic = places_.diagnostic(
             finding.severity,
-            scene_,
-            finding.geometry(scene_).items[finding.item],
-            finding.problem,
+            finding.geometry(scene_),
+            finding.item,
+            finding.triangle,
+            finding.problem + triangle_text(finding),
             finding.remedy);
         // The reader has its own look at inner points, and has spoken of the worst.
         const auto known = std::span(diagnostics_).first(known_);
@@ -89,7 +114,13 @@ public:
 private:
     static constexpr std::size_t most_of_a_kind = 10;
 
+    /// " (at triangle 12)" of a mesh.
+    static std::string triangle_text(const SolidFinding& finding) {
+        return finding.triangle ? fmt::format(" (at triangle {})", *finding.triangle + 1) : "";
+    }
+
     const Scene& scene_;
+    ItemPlaces places_;
     bool with_notes_;
     std::vector<Diagnostic>& diagnostics_;
     std::size_t known_; ///< diagnostics of others
@@ -147,15 +178,9 @@ void fix_scene(
             return finding.severity == Severity::note;
         });
     const SourceText text(request.scene.path);
-    const SceneFixes fixes = scene_fixes(prepared, findings, text.text());
+    const SceneFixes fixes = scene_fixes(prepared, findings, text.text(), console.cancel);
     if (request.write.empty()) {
-        fmt::print(
-            "{}",
-            unified_diff(
-                text.text(),
-                fixes.edits,
-                diff_name("a", request.scene.path),
-                diff_name("b", request.scene.path)));
+        print_diff(request.scene.path, text.text(), fixes, console);
     } else {
         OutputFile file(request.write);
         file.write(edited(text.text(), fixes.edits));
@@ -173,6 +198,7 @@ void fix_scene(
 
 void check_scene(const Request& request, Console& console) {
     refuse_what_cannot_be_fixed(request);
+    const ThreadLimit limit = thread_limit(request.threads);
     stop_on_interrupt(console);
     std::vector<Diagnostic> diagnostics;
     std::size_t left_out = 0;
@@ -227,6 +253,7 @@ void add_check_command(CLI::App& app, Console& console) {
     check->add_option("--write", request->write, "with --fix: writes the corrected scene there")
         ->type_name("FILE");
     check->add_flag("--json", request->json, "the diagnostics as JSON, on standard output");
+    add_threads_option(*check, request->threads);
     add_console_options(*check, console);
     check->footer("Exits with 0 when the scene can be rendered, warnings or not, else with 1.\n"
                   "Examples:\n"

@@ -48,8 +48,15 @@ void add_ladder_command(CLI::App& app, Console& console);
 void add_explain_command(CLI::App& app, Console& console);
 void add_make_command(CLI::App& app, Console& console);
 void add_solve_command(CLI::App& app, Console& console);
+void add_bench_command(CLI::App& app, Console& console);
 
 /// --quiet, --color and --progress, on a subcommand.
 void add_console_options(CLI::App& command, Console& console);
+
+/// --threads, on a subcommand that computes with several.
+void add_threads_option(CLI::App& command, double& threads);
+
+/// The limit that --threads asks for, while it lives. Throws CommandLineError.
+ThreadLimit thread_limit(double threads);
 
 } // namespace vera

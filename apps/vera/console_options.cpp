@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cstdint>
 #include <map>
 
 #include "command.h"
+#include "option_values.h"
 #include <CLI/CLI.hpp>
 
 namespace vera {
@@ -26,6 +28,17 @@ void add_console_options(CLI::App& command, Console& console) {
         ->transform(CLI::CheckedTransformer(color_styles).description(""))
         ->type_name("auto|always|never")
         ->group(group);
+}
+
+void add_threads_option(CLI::App& command, double& threads) {
+    command.add_option("--threads", threads, "0: one for each processor")
+        ->type_name("N")
+        ->capture_default_str();
+}
+
+ThreadLimit thread_limit(double threads) {
+    constexpr std::uint32_t most = 1024;
+    return ThreadLimit(whole_of("--threads", threads, 0, most));
 }
 
 } // namespace vera

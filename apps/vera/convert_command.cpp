@@ -40,8 +40,8 @@ struct Request {
     std::string crop;
     double exposure = 0;
     double error = 0;
-    double jpeg_quality = jpeg_quality_by_default;
-    double delay = delay_by_default;
+    std::optional<double> jpeg_quality;
+    std::optional<double> delay;
     double threads = 0;
 
     std::string output() const { return paths.back(); }
@@ -80,6 +80,9 @@ Format output_format(const Request& request) {
     if (fs::is_directory(output))
         throw CommandLineError(fmt::format(
             "pictures in the folder '{}' need --format, as in --format png", request.output()));
+    if (!output.has_filename())
+        throw CommandLineError(fmt::format(
+            "there is no folder '{}'; make it first, or name a file", request.output()));
     if (CLI::detail::to_lower(output.extension().string()) == ".gif")
         return {};
     if (const auto format = format_from_extension(output))
@@ -102,9 +105,17 @@ void check_output(const Request& request, const Format& format) {
     if (request.error != 0 && request.is_reduced())
         throw CommandLineError(
             "--error would change the colours that --colors and --palette choose; leave one out");
-    if (request.jpeg_quality != jpeg_quality_by_default && format.of_image != ImageFileFormat::jpeg)
+    if (request.jpeg_quality && format.of_image != ImageFileFormat::jpeg)
         throw CommandLineError("--quality is for JPEG; write a .jpg, or leave it out");
-    if (request.inputs().size() == 1 || format.is_gif() || fs::is_directory(request.output()))
+    const bool is_one = request.inputs().size() == 1;
+    if (request.delay && (!format.is_gif() || is_one || fs::is_directory(request.output())))
+        throw CommandLineError(
+            "--delay is for one GIF that shows several pictures in turn; name more of them and a "
+            ".gif, or leave it out");
+    if (request.palette_for_all && is_one)
+        throw CommandLineError(
+            "--palette-for-all is for several pictures; name more, or leave it out");
+    if (is_one || format.is_gif() || fs::is_directory(request.output()))
         return;
     throw CommandLineError(fmt::format(
         "{} pictures do not go into '{}'; name a folder that is there, or a .gif to show them in "
@@ -156,6 +167,18 @@ private:
     std::size_t done_ = 0;
 };
 
+/// No more than 256 colours can need, with long comments: a device has no end.
+std::vector<std::byte> palette_bytes(const std::string& name) {
+    constexpr std::size_t most = std::size_t{1} << 20U;
+    const std::vector<std::byte> bytes = file_bytes(name, most + 1);
+    if (bytes.size() > most)
+        throw InputError({Diagnostic{
+            .place = {.file = name},
+            .problem = "this is no palette: it has more than a million bytes",
+            .remedy = "write one colour of #rrggbb a line, at most 256"}});
+    return bytes;
+}
+
 Palette given_palette(const std::string& name) {
     if (const auto palette = named_palette(name))
         return *palette;
@@ -164,7 +187,7 @@ Palette given_palette(const std::string& name) {
             "--palette knows no '{}', and there is no such file; it knows {}",
             name,
             palette_names()));
-    const std::vector<std::byte> bytes = file_bytes(name);
+    const std::vector<std::byte> bytes = palette_bytes(name);
     return palette_from_text({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, name);
 }
 
@@ -209,7 +232,8 @@ Image with_colors(const IndexedPicture& picture) {
 ImageWriteSettings write_settings(const Request& request, const Format& format) {
     const unsigned scale = format.of_image == ImageFileFormat::vra16 ? 257 : 1;
     return {
-        .jpeg_quality = static_cast<int>(number_of("--quality", request.jpeg_quality, 1, 100)),
+        .jpeg_quality = static_cast<int>(
+            number_of("--quality", request.jpeg_quality.value_or(jpeg_quality_by_default), 1, 100)),
         .raster_error = scale * whole_of("--error", request.error, 0, 127)};
 }
 
@@ -302,13 +326,23 @@ void write_animation(const Request& request, const Console& console) {
     pictures.reserve(sources.size());
     for (const PictureSource& source : sources)
         pictures.push_back(reduced(request, source, palette, progress));
-    write_gif(pictures, file, whole_of("--delay", request.delay, 2, 65535));
+    write_gif(
+        pictures, file, whole_of("--delay", request.delay.value_or(delay_by_default), 2, 65535));
     file.commit();
+}
+
+/// Throws where a picture cannot be read or cut: none is to be written then.
+void read_all_once(const Request& request) {
+    for (const std::string& input : request.inputs())
+        PictureSource(input, request.crop, request.exposure).image(SampleType::integer8);
 }
 
 void write_series(const Request& request, const Format& format, const Console& console) {
     std::map<fs::path, std::string> outputs;
     for (const std::string& input : request.inputs()) {
+        if (input == "-")
+            throw CommandLineError(
+                "a picture from standard input has no name for the one to write: convert it alone");
         fs::path output = fs::path(request.output()) / fs::path(input).stem();
         std::string extension = CLI::detail::to_lower(request.format);
         // png16 and the like are .png.
@@ -327,6 +361,8 @@ void write_series(const Request& request, const Format& format, const Console& c
     std::optional<Palette> palette;
     if (request.palette_for_all)
         palette = chosen_palette(request, pointers(sources_of(request)));
+    else
+        read_all_once(request);
     for (const auto& [output, input] : outputs) {
         PictureSource source(input, request.crop, request.exposure);
         write_one(request, format, source, output, palette ? &*palette : nullptr, console);
@@ -344,7 +380,7 @@ void convert(const Request& request, const Console& console) {
     write_settings(request, format);
     check_output(request, format);
     check_colors(request, format);
-    const ThreadLimit limit(whole_of("--threads", request.threads, 0, 1024));
+    const ThreadLimit limit = thread_limit(request.threads);
     if (fs::is_directory(request.output())) {
         write_series(request, format, console);
     } else if (request.inputs().size() > 1) {
@@ -396,9 +432,8 @@ void add_convert_command(CLI::App& app, Console& console) {
             "of .vra: no sample changes by more than this of 255; 0 loses nothing")
         ->type_name("N")
         ->capture_default_str();
-    command->add_option("--quality", request->jpeg_quality, "of a JPEG picture, 1 to 100")
-        ->type_name("Q")
-        ->capture_default_str();
+    command->add_option("--quality", request->jpeg_quality, "of a JPEG picture, 1 to 100, else 95")
+        ->type_name("Q");
     const char* const group = "Colours";
     command->add_option("--colors", request->colors, "the best so many, 2 to 256; 256 for GIF")
         ->type_name("N")
@@ -422,13 +457,12 @@ void add_convert_command(CLI::App& app, Console& console) {
         ->group(group);
     command
         ->add_option(
-            "--delay", request->delay, "hundredths of a second a picture, in a GIF of several")
+            "--delay",
+            request->delay,
+            "hundredths of a second a picture, in a GIF of several, else 10")
         ->type_name("N")
-        ->capture_default_str()
         ->group(group);
-    command->add_option("--threads", request->threads, "0: one for each processor")
-        ->type_name("N")
-        ->capture_default_str();
+    add_threads_option(*command, request->threads);
     add_console_options(*command, console);
     command->footer("Examples:\n"
                     "  vera convert picture.exr picture.png --exposure 0.5\n"

@@ -34,7 +34,6 @@ namespace vera {
 
 namespace {
 
-constexpr std::uint32_t most_threads = 1024;
 constexpr std::uint32_t most_points = 1'000'000'000;
 
 struct Request {
@@ -45,7 +44,7 @@ struct Request {
     std::string engine = "cells";
     double precision = 0.01;
     double deviation = 0.1;
-    double color_tolerance = 1;
+    std::optional<double> color_tolerance;
     double page = 0;
     double threads = 0;
     double time_limit = 0;
@@ -104,6 +103,10 @@ void check_style(const Request& request, DrawingStyle style, DrawingFormat forma
         throw CommandLineError(fmt::format(
             "DXF is for lines, and --style {} fills areas; take --style lines or hidden-lines, or "
             "another format",
+            request.style));
+    if (request.color_tolerance && style != DrawingStyle::shaded)
+        throw CommandLineError(fmt::format(
+            "--color-tolerance is for gradients, and --style {} has none; take --style shaded",
             request.style));
     if (!request.lines.empty() && !has_lines(style))
         throw CommandLineError(fmt::format(
@@ -315,7 +318,7 @@ void draw(const Request& request, Console& console) {
     settings.engine = request.engine == "sweep" ? VisibilityEngine::sweep : VisibilityEngine::cells;
     settings.deviation = number_of("--deviation", request.deviation, 1e-4, 100);
     settings.color_tolerance =
-        number_of("--color-tolerance", request.color_tolerance, 0.6, 255) / 255;
+        number_of("--color-tolerance", request.color_tolerance.value_or(1), 0.6, 255) / 255;
     DrawingSettings file_settings;
     file_settings.precision = number_of("--precision", request.precision, 1e-6, 1);
     // What is below all faces keeps the background out: lines need only be as wide as a smoothed
@@ -326,7 +329,7 @@ void draw(const Request& request, Console& console) {
     for (const std::string& line : request.lines)
         apply_line_option(line, file_settings.line_styles);
     const std::uint32_t points = whole_of("--verify", request.verify, 0, most_points);
-    const ThreadLimit limit(whole_of("--threads", request.threads, 0, most_threads));
+    const ThreadLimit limit = thread_limit(request.threads);
     std::optional<MemoryLimit> memory;
     if (!request.memory_limit.empty())
         memory.emplace(bytes_of("--memory-limit", request.memory_limit));
@@ -342,6 +345,7 @@ void draw(const Request& request, Console& console) {
 
     PreparedScene prepared = prepared_scene(request.scene);
     print_diagnostics(prepared.warnings, console);
+    keep_what_was_read(request.scene, prepared.scene, "--output", request.output);
     // Opened before the long work, so that a folder that is not there shows at once.
     OutputFile file(request.output);
     report.read_seconds = watch.lap();
@@ -440,9 +444,8 @@ void add_draw_command(CLI::App& app, Console& console) {
         ->add_option(
             "--color-tolerance",
             request->color_tolerance,
-            "how far the gradients of style shaded may be off the light, in steps of 255")
-        ->type_name("X")
-        ->capture_default_str();
+            "how far the gradients of style shaded may be off the light, in steps of 255, else 1")
+        ->type_name("X");
     command
         ->add_option("--page", request->page, "width of the page in millimetres; 0: by the raster")
         ->type_name("MM")
@@ -472,9 +475,7 @@ void add_draw_command(CLI::App& app, Console& console) {
             "up "
             "before it does, with exit code 3; else what the machine has")
         ->type_name("SIZE");
-    command->add_option("--threads", request->threads, "0: one for each processor")
-        ->type_name("N")
-        ->capture_default_str();
+    add_threads_option(*command, request->threads);
     command->add_flag(
         "--verify{100000}",
         request->verify,

@@ -27,6 +27,7 @@ struct Request {
     double x = 0;
     double y = 0;
     std::string svg;
+    double threads = 0;
     bool visits = false;
     bool json = false;
 };
@@ -86,6 +87,7 @@ void explain(const Request& request, const Console& console) {
     if (request.visits && request.index.kind == "brute")
         throw CommandLineError("--visits lists cells or nodes, and --index brute has none; take "
                                "--index grid or --index bvh");
+    const ThreadLimit limit = thread_limit(request.threads);
     PreparedScene prepared = prepared_scene(request.scene);
     print_diagnostics(prepared.warnings, console);
     const PictureSettings& settings = prepared.settings;
@@ -96,6 +98,7 @@ void explain(const Request& request, const Console& console) {
         if (request.svg != "-" && drawing_format_from_extension(request.svg) != DrawingFormat::svg)
             throw CommandLineError(
                 fmt::format("--svg writes SVG; found '{}'; name it as in rays.svg", request.svg));
+        keep_what_was_read(request.scene, prepared.scene, "--svg", request.svg);
         svg.emplace(request.svg);
     }
 
@@ -160,6 +163,7 @@ void add_explain_command(CLI::App& app, Console& console) {
     command
         ->add_option("--svg", request->svg, "drawing of the rays to write; - for standard output")
         ->type_name("FILE");
+    add_threads_option(*command, request->threads);
     add_console_options(*command, console);
     command->footer(
         "Shows each ray of the pixel's ray tree, what it meets, what every light gives\n"

@@ -2,6 +2,7 @@
 #include "vera/image/develop.h"
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 
 #include "explanation.h"
@@ -51,13 +52,19 @@ private:
 
     void term(const std::string& label, Color value, const std::string& words) {
         line(fmt::format(
-            "  {:<{}}{:>11.6f} {:>11.6f} {:>11.6f}   {}",
+            "  {:<{}}{} {} {}   {}",
             label,
             label_width,
-            value.r,
-            value.g,
-            value.b,
+            column(value.r),
+            column(value.g),
+            column(value.b),
             words));
+    }
+
+    /// With its point below those above it, as long as it is not huge.
+    static std::string column(double value) {
+        return std::abs(value) < 10'000 ? fmt::format("{:>11.6f}", value)
+                                        : fmt::format("{:>11.4g}", value);
     }
 
     void add_head();

@@ -20,6 +20,7 @@ namespace {
 struct Request {
     SceneRequest scene;
     GridPictureRequest grid;
+    double threads = 0;
     bool json = false;
 };
 
@@ -173,8 +174,10 @@ void print_bvh(const IndexForecast& forecast, const WideBvhStatistics& bvh) {
 
 void print_info(const Request& request, const Console& console) {
     check_grid_picture(request.grid);
+    const ThreadLimit limit = thread_limit(request.threads);
     const PreparedScene prepared = prepared_scene(request.scene);
     print_diagnostics(prepared.warnings, console);
+    keep_what_was_read(request.scene, prepared.scene, "--draw-grid", request.grid.path);
     const GridSettings settings;
     const IndexForecast bvh_forecast = wide_bvh_forecast(prepared.scene);
     const IndexForecast forecast = grid_forecast(prepared.scene, settings);
@@ -207,6 +210,7 @@ void add_info_command(CLI::App& app, Console& console) {
     add_scene_options(*info, request->scene);
     info->add_flag("--json", request->json, "the same as JSON");
     add_grid_picture_options(*info, request->grid);
+    add_threads_option(*info, request->threads);
     add_console_options(*info, console);
     info->footer("Examples:\n"
                  "  vera info scene.vera\n"

@@ -19,6 +19,7 @@
 #include "ladder_sheet.h"
 #include "messages.h"
 #include "option_values.h"
+#include "picture_metadata.h"
 #include "prepared_scene.h"
 #include "progress_display.h"
 #include "scene_index.h"
@@ -33,7 +34,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint32_t most_threads = 1024;
 /// Written last: a folder that has it holds all the rest.
 constexpr char report_name[] = "ladder.json";
 
@@ -49,6 +49,7 @@ struct Request {
 /// A step that was rendered.
 struct Rung {
     Image image;
+    PictureSettings settings;
     RenderStatistics counts;
     double seconds = 0;
     std::optional<ImageDifference> difference; ///< to the step before
@@ -154,9 +155,14 @@ void expose_all_steps(PreparedScene& prepared, const RayIndex& index, const Canc
         return;
     TracedScene traced = traced_scene(prepared.scene, index, prepared.settings, &cancel);
     RenderStatistics not_of_a_step;
-    expose(traced, prepared.camera, *prepared.settings.exposure, not_of_a_step);
+    const double factor =
+        expose(traced, prepared.camera, *prepared.settings.exposure, not_of_a_step).factor;
     prepared.scene.lights = traced.illumination.lights;
     prepared.settings.ambient = traced.illumination.ambient;
+    // So that the settings tell of it.
+    prepared.settings.light_factors.resize(prepared.scene.lights.size(), 1);
+    for (double& light_factor : prepared.settings.light_factors)
+        light_factor *= factor;
     prepared.settings.exposure.reset();
 }
 
@@ -183,6 +189,7 @@ rungs(PreparedScene& prepared, const Effects& all, const RayIndex& index, const 
         Rung rung;
         rung.seconds = watch.lap();
         rung.image = std::move(rendered.image);
+        rung.settings = effects.settings;
         rung.counts = rendered.statistics;
         if (!result.empty()) {
             rung.difference = difference(result.back().image, rung.image);
@@ -246,10 +253,22 @@ nlohmann::ordered_json report_json(
     return json;
 }
 
-void write_pictures(const OutputFolder& folder, const std::vector<Rung>& rungs) {
+/// As 'vera render' writes it, with the step's own settings and title.
+PictureMetadata
+step_metadata(PictureMetadata metadata, const PictureSettings& settings, const char* title) {
+    for (auto& [name, text] : metadata)
+        if (name == "Settings")
+            text = control_text(settings);
+    metadata.emplace_back("Title", title);
+    return metadata;
+}
+
+void write_pictures(
+    const OutputFolder& folder, const PreparedScene& prepared, const std::vector<Rung>& rungs) {
+    const PictureMetadata of_scene = picture_metadata(prepared);
     for (std::size_t i = 0; i < rungs.size(); ++i) {
-        const PictureMetadata metadata = {
-            {"Software", fmt::format("vera {}", version)}, {"Title", step_words[i].title}};
+        const PictureMetadata metadata =
+            step_metadata(of_scene, rungs[i].settings, step_words[i].title);
         write_image(rungs[i].image, folder.file(picture_name(i)), ImageFileFormat::png8, metadata);
         if (rungs[i].difference)
             write_image(
@@ -327,7 +346,7 @@ void print_rungs(const std::vector<Rung>& rungs, const Console& console) {
 }
 
 void write_ladder(const Request& request, const Console& console) {
-    const ThreadLimit limit(whole_of("--threads", request.threads, 0, most_threads));
+    const ThreadLimit limit = thread_limit(request.threads);
     PreparedScene prepared = prepared_scene(request.scene);
     if (request.width)
         set_width(prepared.settings, *request.width);
@@ -346,7 +365,7 @@ void write_ladder(const Request& request, const Console& console) {
     // What is there of an earlier run is not complete from here on.
     std::error_code none_before;
     fs::remove(folder.file(report_name), none_before);
-    write_pictures(folder, steps);
+    write_pictures(folder, prepared, steps);
     OutputFile sheet(folder.file("sheet.svg"));
     sheet.write(sheet_svg(sheet_of(request, prepared.settings, folder, steps)));
     sheet.commit();
@@ -381,9 +400,7 @@ void add_ladder_command(CLI::App& app, Console& console) {
         ->type_name("N");
     command->add_flag(
         "--overwrite", request->overwrite, "write into a folder that holds other files as well");
-    command->add_option("--threads", request->threads, "0: one for each processor")
-        ->type_name("N")
-        ->capture_default_str();
+    add_threads_option(*command, request->threads);
     command->add_flag("--json", request->json, "ladder.json on standard output as well");
     add_console_options(*command, console);
     command->footer("Examples:\n"

@@ -43,8 +43,9 @@ struct RayKind {
     std::uint64_t (*count)(const RenderStatistics&);
 };
 
-constexpr std::array<RayKind, 4> ray_kinds = {{
-    {"view", "#5b7d9c", [](const RenderStatistics& c) { return c.view_rays + c.probe_rays; }},
+constexpr std::array<RayKind, 5> ray_kinds = {{
+    {"view", "#5b7d9c", [](const RenderStatistics& c) { return c.view_rays; }},
+    {"probe", "#a9bccb", [](const RenderStatistics& c) { return c.probe_rays; }},
     {"shadow", "#3c4046", [](const RenderStatistics& c) { return c.shadow_rays; }},
     {"mirrored", "#c08a3a", [](const RenderStatistics& c) { return c.mirrored_rays; }},
     {"refracted", "#58a79c", [](const RenderStatistics& c) { return c.refracted_rays; }},
@@ -115,6 +116,11 @@ std::string grouped(std::uint64_t number) {
     return digits;
 }
 
+std::string rays_text(const RenderStatistics& counts) {
+    const std::uint64_t rays = all_rays(counts);
+    return grouped(rays) + (rays == 1 ? " ray" : " rays");
+}
+
 std::string step_cell(const Sheet& sheet, std::size_t number, double x, double y) {
     const SheetStep& step = sheet.steps[number];
     const double aspect = static_cast<double>(sheet.height) / static_cast<double>(sheet.width);
@@ -126,8 +132,7 @@ std::string step_cell(const Sheet& sheet, std::size_t number, double x, double y
     line += 8;
     for (const std::string& words : lines_of(step.text))
         svg += text_at(x + 26, line += line_height, "text", words);
-    svg +=
-        text_at(x + 26, line += line_height + 6, "small", grouped(all_rays(step.counts)) + " rays");
+    svg += text_at(x + 26, line += line_height + 6, "small", rays_text(step.counts));
     if (!step.difference.empty()) {
         const double left = x + picture_width - thumbnail_width;
         const double top = y + height + caption_gap;
@@ -161,8 +166,7 @@ std::string cost_cell(const Sheet& sheet, double x, double y) {
             x + 26,
             line,
             "text",
-            fmt::format(
-                "{}, {:.2g} s", grouped(all_rays(counts)) + " rays", sheet.steps[i].seconds));
+            fmt::format("{}, {:.2g} s", rays_text(counts), sheet.steps[i].seconds));
         double left = x + 26;
         for (const RayKind& kind : ray_kinds) {
             const double width = (picture_width - 26) * static_cast<double>(kind.count(counts))

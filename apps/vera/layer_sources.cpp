@@ -46,21 +46,35 @@ double& component(Color& color, std::size_t i) {
     return i == 0 ? color.r : i == 1 ? color.g : color.b;
 }
 
+[[noreturn]] void refuse_file(const std::string& name, const std::string& problem) {
+    throw InputError({Diagnostic{
+        .place = {.file = name},
+        .problem = problem,
+        .remedy = "name the EXR file that 'vera render SCENE -o PICTURE --layers FILE' has "
+                  "written, or write it anew"}});
+}
+
+LayersReader reader_of(const SourceText& file) {
+    if (!file.text().starts_with("\x76\x2f\x31\x01"))
+        refuse_file(file.name(), "this is no EXR file, and layers are in one");
+    try {
+        return {std::as_bytes(std::span(file.text())), file.name()};
+    } catch (const InputError& error) {
+        refuse_file(file.name(), error.diagnostics().front().problem);
+    }
+}
+
 } // namespace
 
 LayerSources::LayerSources(const std::string& path)
     : file_(path)
-    , reader_(std::as_bytes(std::span(file_.text())), path) {
+    , reader_(reader_of(file_)) {
     read_settings();
     find_layers();
 }
 
 void LayerSources::refuse(const std::string& problem) const {
-    Diagnostic wrong;
-    wrong.place.file = file_.name();
-    wrong.problem = problem;
-    wrong.remedy = "write it anew with 'vera render SCENE -o PICTURE --layers FILE'";
-    throw InputError({wrong});
+    refuse_file(file_.name(), problem);
 }
 
 void LayerSources::read_settings() {

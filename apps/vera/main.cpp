@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "command.h"
+#include "formula_words.h"
 #include "interrupt.h"
 #include "messages.h"
 #include "usage.h"
@@ -23,7 +24,7 @@ using vera::ExitCode;
 ExitCode run(CLI::App& app, Console& console, int argc, char** argv) {
     try {
         vera::honour_simd_environment();
-        app.parse(argc, argv);
+        app.parse(vera::words_to_parse(app, argc, argv));
         return ExitCode::good;
     } catch (const CLI::Success& help) {
         app.exit(help); // prints the help or the version
@@ -56,6 +57,7 @@ int main(int argc, char** argv) {
     vera::stop_on_interrupt(console);
 
     CLI::App app("VERA turns a scene file into a picture that can be trusted.", "vera");
+    vera::show_whole_usage(app);
     app.set_version_flag("--version", std::string("vera ") + vera::version);
     app.require_subcommand(1);
     app.set_help_all_flag();
@@ -70,6 +72,7 @@ int main(int argc, char** argv) {
                "  vera explain scene.vera 256 300\n"
                "  vera make ficus -o ficus.vera\n"
                "  vera solve layers.exr -o solved.ctl --exposure 0.9\n"
+               "  vera bench curve --list\n"
                "'vera COMMAND --help' tells more of a command.\n"
                "Exit codes: 0 good, 1 the input is wrong, 2 the command line is wrong,\n"
                "3 the machine failed, 130 interrupted.");
@@ -82,6 +85,8 @@ int main(int argc, char** argv) {
     vera::add_explain_command(app, console);
     vera::add_make_command(app, console);
     vera::add_solve_command(app, console);
+    vera::add_bench_command(app, console);
+    vera::refuse_odd_values(app);
     ExitCode code = run(app, console, argc, argv);
     // What was printed may still be on its way to a disk that is full.
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {

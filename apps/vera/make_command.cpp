@@ -20,7 +20,7 @@ ParameterValues checked_values(const Generator& generator, const std::vector<dou
     ParameterValues values(generator);
     for (std::size_t i = 0; i < given.size(); ++i)
         if (const auto problem = values.set(generator.parameters[i], given[i]))
-            throw CommandLineError(*problem);
+            throw CommandLineError("--" + *problem); // it begins with the parameter's name
     return values;
 }
 
@@ -80,6 +80,7 @@ void print_list() {
     for (const Generator& generator : generators())
         fmt::print("{:<10}  {}\n", generator.name, generator.summary);
     fmt::print("{:<10}  {}\n", "surface", "a surface whose formulas you type");
+    fmt::print("{:<10}  {}\n", "turned", "a shape turned from a profile that you type");
 }
 
 } // namespace
@@ -97,6 +98,7 @@ void add_make_command(CLI::App& app, Console& console) {
     for (const Generator& generator : generators())
         add_generator(*make, generator, console);
     add_make_surface(*make, console);
+    add_make_turned(*make, console);
     make->callback([make, list] {
         if (*list)
             return print_list();

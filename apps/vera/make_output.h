@@ -32,4 +32,7 @@ void write_made_scene(const Scene& scene, const MakeOutput& output, const Consol
 /// vera make surface X Y Z -o SCENE
 void add_make_surface(CLI::App& make, Console& console);
 
+/// vera make turned R H R H ... -o SCENE
+void add_make_turned(CLI::App& make, Console& console);
+
 } // namespace vera

@@ -6,6 +6,7 @@
 
 #include <optional>
 
+#include "formula_words.h"
 #include "interrupt.h"
 #include "make_output.h"
 #include "option_values.h"
@@ -25,6 +26,7 @@ struct Request {
     std::optional<double> deviation;
     std::optional<double> pixels;
     double most_triangles = 2'000'000;
+    double threads = 0;
     bool z_up = false;
     MakeOutput output;
 };
@@ -76,9 +78,9 @@ Surface surface_of(const Request& request) {
     const auto [u_begin, u_end] = range("--u", request.u, names);
     const auto [v_begin, v_end] = range("--v", request.v, names);
     return {
-        .x = read_formula("X", request.x, formula),
-        .y = read_formula("Y", request.y, formula),
-        .z = read_formula("Z", request.z, formula),
+        .x = read_formula("X", typed_word(request.x), formula),
+        .y = read_formula("Y", typed_word(request.y), formula),
+        .z = read_formula("Z", typed_word(request.z), formula),
         .u_begin = u_begin,
         .u_end = u_end,
         .v_begin = v_begin,
@@ -98,6 +100,7 @@ void make_surface(const Request& request, const Console& console) {
         number_of("--deviation", *request.deviation, 1e-100, 1e100);
     if (request.pixels)
         number_of("--pixels", *request.pixels, 1e-9, 1e9);
+    const ThreadLimit limit = thread_limit(request.threads);
     whole_of("--most-triangles", request.most_triangles, 100, 100'000'000);
     const Surface surface = surface_of(request);
     const Affine3 placement = request.z_up ? z_up_to_y_up() : Affine3{};
@@ -139,14 +142,22 @@ void make_surface(const Request& request, const Console& console) {
 }
 
 void make_surface_or_tell(const Request& request, const Console& console) {
-    try {
-        make_surface(request, console);
-    } catch (const SurfaceError& error) {
-        throw InputError(
+    const auto problem = [](const SurfaceError& error, const std::string& more) {
+        return InputError(
             {{.severity = Severity::error,
               .place = {"surface", 0, 0},
               .problem = error.what(),
-              .remedy = error.remedy}});
+              .remedy = error.remedy + more}});
+    };
+    try {
+        make_surface(request, console);
+    } catch (const TooManyTriangles& error) {
+        throw problem(
+            error,
+            request.pixels ? " (--pixels), or --most-triangles"
+                           : " (--deviation), or --most-triangles");
+    } catch (const SurfaceError& error) {
+        throw problem(error, "");
     }
 }
 
@@ -189,14 +200,18 @@ void add_make_surface(CLI::App& make, Console& console) {
         ->capture_default_str();
     command->add_flag("--z-up", request->z_up, "the formulas' z is up");
     add_make_output_options(*command, request->output);
+    add_threads_option(*command, request->threads);
     add_console_options(*command, console);
     command->footer(fmt::format(
         "Formulas: numbers, u, v, pi, e, + - * / ^ and\n  {}.\n"
+        "One that begins with -h, -o or -q, which are options, stands in brackets: "
+        "\"(-omega*u)\".\n"
         "Examples:\n"
         "  vera make surface \"cos(u)*cos(v)\" \"sin(v)\" \"sin(u)*cos(v)\" \\\n"
         "       --u 0 2*pi --v -pi/2 pi/2 -o ball.vera\n"
         "  vera make surface u v \"sin(n*(u^2+v^2))/n\" --let n=5 --z-up \\\n"
-        "       --u -1 1 --v -1 1 --pixels 0.02 -o waves.vera",
+        "       --u -1 1 --v -1 1 --pixels 0.02 -o waves.vera\n"
+        "  vera make surface -v \"-u*v\" u --u -1 1 --v -1 1 -o saddle.vera",
         formula_function_names()));
     command->callback([request, &console] { make_surface_or_tell(*request, console); });
 }

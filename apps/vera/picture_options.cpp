@@ -56,7 +56,8 @@ double margin_of(double margin) {
 Color color_of(const char* option, const std::vector<double>& values) {
     for (const double value : values)
         if (!std::isfinite(value))
-            throw CommandLineError(fmt::format("{} takes three finite numbers", option));
+            throw CommandLineError(
+                fmt::format("{} takes three finite numbers; found {}", option, value));
     return {values[0], values[1], values[2]};
 }
 
@@ -87,6 +88,10 @@ void override_light(const PictureOptions& options, PictureSettings& settings) {
 void override_antialiasing(const PictureOptions& options, Antialiasing& antialiasing) {
     if (!options.antialias.empty())
         antialiasing.on = switch_of("--antialias", options.antialias);
+    if (options.antialias == "off" && (options.samples || options.tolerance))
+        throw CommandLineError(fmt::format(
+            "{} is for smoothed edges, and --antialias off leaves them: give one of the two",
+            options.samples ? "--samples" : "--tolerance"));
     if (options.samples) {
         antialiasing.samples =
             whole_of("--samples", *options.samples, 2, PictureLimits::most_samples);

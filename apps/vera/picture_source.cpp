@@ -4,6 +4,7 @@
 #include "vera/image/image_file.h"
 #include "vera/math/elementary.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <string_view>
@@ -15,7 +16,7 @@ namespace vera {
 
 namespace {
 
-/// "320x240+10+20"; nothing where it is not so, or a number is larger than any picture's.
+/// "320x240+10+20"; nothing where it is not so. Numbers larger than any picture's become less.
 std::optional<PixelRectangle> rectangle_from(std::string_view text) {
     constexpr std::string_view separators = "x++";
     constexpr std::size_t most = (std::size_t{1} << 31) - 1;
@@ -26,8 +27,9 @@ std::optional<PixelRectangle> rectangle_from(std::string_view text) {
         text.remove_prefix(i > 0 ? 1 : 0);
         const auto [end, error] =
             std::from_chars(text.data(), text.data() + text.size(), numbers[i]);
-        if (error != std::errc() || numbers[i] > most)
+        if (error == std::errc::invalid_argument)
             return std::nullopt;
+        numbers[i] = error == std::errc() ? std::min(numbers[i], most) : most;
         text.remove_prefix(static_cast<std::size_t>(end - text.data()));
     }
     if (!text.empty() || numbers[0] == 0 || numbers[1] == 0)
@@ -42,7 +44,11 @@ PixelRectangle crop_rectangle(const std::string& text, std::size_t width, std::s
             "--crop takes WIDTHxHEIGHT+X+Y in pixels, as in 320x240+10+20; found '{}'", text));
     if (place->x + place->width > width || place->y + place->height > height)
         throw CommandLineError(fmt::format(
-            "--crop {} is not within the picture, which has {} x {} pixels", text, width, height));
+            "--crop {} is not within the picture, which has {} x {} pixels; take less, or from "
+            "further left and up",
+            text,
+            width,
+            height));
     return *place;
 }
 

@@ -8,9 +8,11 @@
 #include "vera/scene/framing.h"
 #include "vera/scene/inspection.h"
 
+#include <filesystem>
 #include <system_error>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 namespace vera {
 
@@ -84,6 +86,23 @@ void add_scene_options(CLI::App& command, SceneRequest& request) {
         ->type_name("vera|nff|obj|ply|stl")
         ->check(CLI::IsMember({"vera", "nff", "obj", "ply", "stl"}).description(""));
     add_picture_options(command, request.picture);
+}
+
+void keep_what_was_read(
+    const SceneRequest& request,
+    const Scene& scene,
+    const char* option,
+    const std::string& output) {
+    if (output.empty() || output == "-")
+        return;
+    std::vector<std::string> read = scene.files;
+    read.push_back(request.picture.control_file);
+    std::error_code none;
+    for (const std::string& file : read)
+        if (std::filesystem::equivalent(file, output, none)
+            && std::filesystem::is_regular_file(output, none))
+            throw CommandLineError(fmt::format(
+                "{} would write over '{}', which is read; name another file", option, file));
 }
 
 PreparedScene prepared_scene(const SceneRequest& request) {

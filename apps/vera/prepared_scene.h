@@ -38,6 +38,11 @@ struct PreparedScene {
 /// lights one that came without camera and lights. Throws as the readers do.
 PreparedScene prepared_scene(const SceneRequest& request);
 
+/// Throws CommandLineError where what the option is to write is a file that was read. The output
+/// may be empty: nothing is written.
+void keep_what_was_read(
+    const SceneRequest& request, const Scene& scene, const char* option, const std::string& output);
+
 /// A diagnostic at an item of the scene, with its line where its file can be read again; of the
 /// scene as a whole without one.
 Diagnostic diagnostic_of(

@@ -107,6 +107,20 @@ double part_seen(const RayTree& tree, const RayIndex& index, Vec3 direction) {
     return static_cast<double>(seen) / static_cast<double>(queries.size());
 }
 
+/// How openly the surfaces that rays meet are seen, on the average: 0 edge-on, 1 from 30 degrees to
+/// them on.
+double part_open(const RayTree& tree, Vec3 direction) {
+    double open = 0;
+    std::size_t surfaces = 0;
+    for (const RayNode& node : tree.nodes) {
+        if (!node.hit.found())
+            continue;
+        open += std::min(2 * std::abs(dot(node.incidence.normal, direction)), 1.0);
+        ++surfaces;
+    }
+    return surfaces > 0 ? open / static_cast<double>(surfaces) : 1;
+}
+
 /// How long the lines look by how long they are, on the average.
 double part_of_length(const std::vector<RayLine>& lines, const RayView& view) {
     double seen = 0;
@@ -181,7 +195,8 @@ RayView ray_view(
             RayView view;
             turn_to(view, around, down);
             const double seen = part_seen(tree, index, view.camera.direction);
-            const double score = 2 * seen + part_of_length(lines, view);
+            const double score =
+                2 * seen + part_of_length(lines, view) + part_open(tree, view.camera.direction);
             if (score <= best_score)
                 continue;
             best_score = score;

@@ -36,7 +36,8 @@ struct RayLine {
 std::vector<RayLine> ray_lines(const RayTree& tree, const Scene& scene);
 
 /// Somebody who looks at a ray tree from aside: in parallel, upright, from where the most of its
-/// places are seen and the rays are least foreshortened, of some directions all round.
+/// places are seen, the surfaces there are not edge-on and the rays are least foreshortened, of
+/// some directions all round.
 struct RayView {
     Camera camera;
     Vec3 right;            ///< unit, of the picture

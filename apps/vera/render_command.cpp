@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/base/output_file.h"
-#include "vera/base/version.h"
-#include "vera/formats/source_text.h"
 #include "vera/image/image_file.h"
 #include "vera/render/render_scene.h"
 
 #include <filesystem>
+#include <optional>
+#include <system_error>
 
+#include "central_strategy.h"
 #include "command.h"
+#include "generation_report.h"
 #include "interrupt.h"
 #include "layers_output.h"
 #include "messages.h"
 #include "option_values.h"
+#include "picture_metadata.h"
 #include "prepared_scene.h"
 #include "preview.h"
 #include "progress_display.h"
@@ -26,7 +29,7 @@ namespace vera {
 
 namespace {
 
-constexpr std::uint32_t most_threads = 1024;
+constexpr double jpeg_quality_by_default = 95;
 
 struct Request {
     SceneRequest scene;
@@ -35,7 +38,7 @@ struct Request {
     std::string output;
     std::string format;
     std::string layers;
-    double jpeg_quality = 95;
+    std::optional<double> jpeg_quality;
     double threads = 0;
     bool json = false;
     PreviewStyle preview = PreviewStyle::automatic;
@@ -52,6 +55,7 @@ struct Report {
     std::size_t index_bytes = 0;
     RenderStatistics statistics;
     std::optional<Exposure> exposure;
+    std::optional<std::vector<GenerationCounts>> generations; ///< where primitives find their rays
 };
 
 ImageFileFormat output_format(const Request& request) {
@@ -70,39 +74,6 @@ ImageFileFormat output_format(const Request& request) {
         request.output,
         similar_file(request.output, {".png", ".exr", ".jpg", ".jpeg", ".ppm", ".pfm", ".vra"}),
         format_names()));
-}
-
-/// FNV-1a over all files that the scene was read from: tells two versions of a scene apart.
-std::string scene_hash(const Scene& scene) {
-    std::uint64_t hash = 0xcbf29ce484222325;
-    for (const std::string& path : scene.files) {
-        if (path == "-" || !std::filesystem::is_regular_file(path))
-            continue;
-        const SourceText file(path);
-        for (const char letter : file.text()) {
-            hash ^= static_cast<unsigned char>(letter);
-            hash *= 0x100000001b3;
-        }
-    }
-    return fmt::format("{:016x}", hash);
-}
-
-PictureMetadata metadata(const PreparedScene& prepared) {
-    const auto point = [](Vec3 p) { return fmt::format("{} {} {}", p.x, p.y, p.z); };
-    const Camera& camera = prepared.camera;
-    const bool parallel = camera.projection == Camera::Projection::parallel;
-    return {
-        {"Software", fmt::format("vera {}", version)},
-        {"Scene hash", scene_hash(prepared.scene)},
-        {"Settings", control_text(prepared.settings)},
-        {"Camera",
-         fmt::format(
-             "{} {} {} {} {}",
-             parallel ? "PARALLEL" : "PROJECTION",
-             point(parallel ? camera.direction : camera.viewpoint),
-             point(camera.lower_left),
-             point(camera.lower_right),
-             point(camera.upper_left))}};
 }
 
 nlohmann::ordered_json as_json(const Report& report) {
@@ -128,6 +99,8 @@ nlohmann::ordered_json as_json(const Report& report) {
           {"render", report.render_seconds},
           {"layers", report.layers_seconds},
           {"write", report.write_seconds}}}};
+    if (report.generations)
+        json["generations"] = generations_json(*report.generations);
     if (report.exposure)
         json["exposure"] = {
             {"rays", report.exposure->rays},
@@ -165,10 +138,17 @@ std::string as_text(const Report& report, const Request& request) {
 void check_layers(const Request& request) {
     if (request.layers.empty())
         return;
-    if (!request.strategy.is_rays())
+    if (request.strategy.kind != "rays")
         throw CommandLineError(
             "--layers are those of rays: leave out --strategy, or give --strategy rays");
     check_layers_name(request.layers);
+    const auto whole_path = [](const std::string& path) {
+        std::error_code unknown;
+        return std::filesystem::weakly_canonical(std::filesystem::absolute(path), unknown);
+    };
+    if (whole_path(request.output) == whole_path(request.layers))
+        throw CommandLineError(fmt::format(
+            "'{}' cannot hold both the picture and its layers; name two files", request.layers));
 }
 
 void print_notes(const SeenParts& seen, const Console& console) {
@@ -185,6 +165,28 @@ void print_notes(const SeenParts& seen, const Console& console) {
                 "{} pairs of facets pass through each other uncut: their common edges may be "
                 "wrong; --strategy rays or depth needs no cutting",
                 seen.penetrating),
+            console);
+}
+
+void print_notes(const CentralIndex& index, const Console& console) {
+    const auto print_cut = [&](double distance, const char* point) {
+        if (distance > 0)
+            print_note(
+                fmt::format(
+                    "what is nearer to {} than {:.3g} is not seen from there: the rest would be "
+                    "too coarse; --strategy rays sees it",
+                    point,
+                    distance),
+                console);
+    };
+    print_cut(index.view_cut_distance(), "the view point");
+    print_cut(index.light_cut_distance(), "a light");
+    if (index.penetrating() > 0)
+        print_note(
+            fmt::format(
+                "{} pairs of facets pass through each other uncut: their common edges may be "
+                "wrong; --strategy rays needs no cutting",
+                index.penetrating()),
             console);
 }
 
@@ -231,33 +233,67 @@ SeenParts surfaces(const Request& request, const PreparedScene& prepared, const 
     return seen;
 }
 
-std::unique_ptr<RayIndex>
-index_for(const Request& request, const PreparedScene& prepared, const Console& console) {
+/// What answers the rays, and the same where each primitive is asked for its rays.
+struct Answering {
+    std::unique_ptr<RayIndex> index;
+    PrimitiveQueryIndex* by_primitive = nullptr;
+};
+
+Answering index_for(const Request& request, const PreparedScene& prepared, const Console& console) {
     const CancellableWork work;
+    if (request.strategy.is_central()) {
+        ProgressDisplay display(console, "maps");
+        auto index = central_index(prepared, display.callback(), console.cancel);
+        print_notes(*index, console);
+        return {std::move(index)};
+    }
     ProgressDisplay display(console, "index");
+    if (request.strategy.is_by_primitive()) {
+        auto index = primitive_query_index(request.strategy, prepared.scene, console.cancel);
+        PrimitiveQueryIndex* const by_primitive = index.get();
+        return {std::move(index), by_primitive};
+    }
     IndexRequest wanted = request.index;
     // It needs no building.
     if (!needs_index(request.strategy, prepared))
         wanted.kind = "brute";
-    return scene_index(prepared.scene, wanted, display.callback(), console.cancel);
+    return {scene_index(prepared.scene, wanted, display.callback(), console.cancel), nullptr};
 }
 
 RenderResult rendered(
     const PreparedScene& prepared,
     const SeenParts& seen,
-    const RayIndex& index,
+    const Answering& answering,
+    const StrategyRequest& strategy,
     SampleType type,
     const Console& console) {
     const CancellableWork work;
     ProgressDisplay display(console, "render");
     const auto& [scene, settings, camera, warnings] = prepared;
+    if (answering.by_primitive != nullptr) {
+        // Whole generations have one tile, and so what tells how far they are is the index alone.
+        const std::size_t size = generation_size(strategy);
+        if (size == whole_generations)
+            answering.by_primitive->set_progress(display.callback());
+        RenderResult result = render_scene(
+            scene,
+            camera,
+            *answering.index,
+            settings,
+            type,
+            size == whole_generations ? Progress() : display.callback(),
+            &console.cancel,
+            size);
+        answering.by_primitive->set_progress({});
+        return result;
+    }
     if (!seen.of_band)
         return render_scene(
-            scene, camera, index, settings, type, display.callback(), &console.cancel);
+            scene, camera, *answering.index, settings, type, display.callback(), &console.cancel);
     return render_parts(
         scene,
         camera,
-        index,
+        *answering.index,
         {*seen.facets, seen.of_band},
         settings,
         type,
@@ -267,15 +303,20 @@ RenderResult rendered(
 
 void render(const Request& request, const Console& console) {
     const ImageFileFormat format = output_format(request);
-    const double jpeg_quality = number_of("--quality", request.jpeg_quality, 1, 100);
-    const ThreadLimit limit(whole_of("--threads", request.threads, 0, most_threads));
-    check_options(request.strategy, request.scene.picture);
+    if (request.jpeg_quality && format != ImageFileFormat::jpeg)
+        throw CommandLineError("--quality is for JPEG; write a .jpg, or leave it out");
+    const double jpeg_quality =
+        number_of("--quality", request.jpeg_quality.value_or(jpeg_quality_by_default), 1, 100);
+    const ThreadLimit limit = thread_limit(request.threads);
+    check_options(request.strategy, request.index, request.scene.picture);
     check_layers(request);
     Report report;
     Stopwatch watch;
 
     PreparedScene prepared = prepared_scene(request.scene);
     print_diagnostics(prepared.warnings, console);
+    keep_what_was_read(request.scene, prepared.scene, "--output", request.output);
+    keep_what_was_read(request.scene, prepared.scene, "--layers", request.layers);
     // Opened before the long work, so that a folder that is not there shows at once.
     OutputFile file(request.output);
     std::optional<OutputFile> layers_file;
@@ -285,11 +326,14 @@ void render(const Request& request, const Console& console) {
 
     const SeenParts seen = surfaces(request, prepared, console);
     report.surfaces_seconds = watch.lap();
-    const std::unique_ptr<RayIndex> index = index_for(request, prepared, console);
-    report.index_bytes = index->memory();
+    const Answering answering = index_for(request, prepared, console);
+    report.index_bytes = answering.index->memory();
     report.index_seconds = watch.lap();
 
-    const RenderResult result = rendered(prepared, seen, *index, sample_type(format), console);
+    const RenderResult result =
+        rendered(prepared, seen, answering, request.strategy, sample_type(format), console);
+    if (answering.by_primitive != nullptr)
+        report.generations = answering.by_primitive->generations();
     report.statistics = result.statistics;
     report.exposure = result.exposure;
     if (report.exposure)
@@ -300,11 +344,11 @@ void render(const Request& request, const Console& console) {
         result.image,
         file,
         format,
-        metadata(prepared),
+        picture_metadata(prepared),
         {.jpeg_quality = static_cast<int>(jpeg_quality)});
     report.write_seconds = watch.lap();
     if (layers_file) {
-        write_layers(prepared, *index, metadata(prepared), *layers_file, console);
+        write_layers(prepared, *answering.index, picture_metadata(prepared), *layers_file, console);
         layers_file->commit();
         report.layers_seconds = watch.lap();
     }
@@ -316,6 +360,8 @@ void render(const Request& request, const Console& console) {
         fmt::print(request.output == "-" ? stderr : stdout, "{}\n", as_json(report).dump(2));
     else
         print_note(as_text(report, request), console);
+    if (report.generations && !request.json)
+        print_note(generations_text(*report.generations), console);
 }
 
 } // namespace
@@ -341,12 +387,9 @@ void add_render_command(CLI::App& app, Console& console) {
             request->layers,
             "EXR file to write beside the picture: its light by source and term")
         ->type_name("FILE");
-    command->add_option("--quality", request->jpeg_quality, "of a JPEG picture, 1 to 100")
-        ->type_name("Q")
-        ->capture_default_str();
-    command->add_option("--threads", request->threads, "0: one for each processor")
-        ->type_name("N")
-        ->capture_default_str();
+    command->add_option("--quality", request->jpeg_quality, "of a JPEG picture, 1 to 100, else 95")
+        ->type_name("Q");
+    add_threads_option(*command, request->threads);
     add_index_options(*command, request->index);
     add_strategy_option(*command, request->strategy);
     command->add_flag("--json", request->json, "rays, tests and times as JSON on standard output");
@@ -356,7 +399,9 @@ void add_render_command(CLI::App& app, Console& console) {
                     "  vera render still_life.vera -c still_life.ctl -o still_life.png\n"
                     "  vera render scene.vera -o draft.png --raster 320x240 --antialias off\n"
                     "  vera render scene.vera -o exact.png --strategy visible\n"
+                    "  vera render scene.vera -o maps.png --strategy central --depth 1\n"
                     "  vera render scene.vera -o scene.png --layers layers.exr\n"
+                    "  vera render scene.vera -o same.png --strategy primitive-query\n"
                     "  vera render bunny.obj -o bunny.exr\n"
                     "  vera render balls.nff --format ppm -o - | display");
 

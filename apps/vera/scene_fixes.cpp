@@ -3,8 +3,6 @@
 
 #include "vera/formats/item_place.h"
 #include "vera/formats/statement_words.h"
-#include "vera/scene/bounds.h"
-#include "vera/scene/framing.h"
 #include "vera/scene/inspection.h"
 #include "vera/solids/inner_point.h"
 
@@ -15,6 +13,7 @@
 #include <string>
 #include <utility>
 
+#include "missing_light.h"
 #include <fmt/format.h>
 
 namespace vera {
@@ -44,21 +43,19 @@ public:
             wrong_[{finding.subscene, inner_point_of(finding)}].push_back(finding);
     }
 
-    void add_light(const Camera& camera) {
-        // As bright in the middle of the scene as one that does not fall off.
-        const Vec3 at = default_lights(scene_, camera).front().position;
-        const Vec3 to_middle = center(bounds(scene_)) - at;
+    void add_light(const PointLight& light) {
+        const Vec3 at = light.position;
         const std::size_t offset =
             statements_.empty() ? text_.size() : statements_.front().words.front().offset;
         fixes_.edits.push_back(
             {offset,
              0,
              fmt::format(
-                 "LI {:.4g} {:.4g} {:.4g}  {:.4g}  1 1 1\n",
-                 at.x,
-                 at.y,
-                 at.z,
-                 dot(to_middle, to_middle))});
+                 "LI {:.12g} {:.12g} {:.12g}  {:.4g}  1 1 1\n",
+                 at.x + 0.0,
+                 at.y + 0.0,
+                 at.z + 0.0,
+                 light.intensity)});
         count(true);
     }
 
@@ -202,13 +199,16 @@ private:
 } // namespace
 
 SceneFixes scene_fixes(
-    const PreparedScene& prepared, std::span<const SolidFinding> findings, std::string_view text) {
+    const PreparedScene& prepared,
+    std::span<const SolidFinding> findings,
+    std::string_view text,
+    const CancelFlag& cancel) {
     FixMaker fixes(prepared.scene, text);
     for (const SolidFinding& finding : findings)
         fixes.add(finding);
     for (const Finding& finding : inspect(prepared.scene, prepared.settings))
         if (finding.kind == Finding::Kind::no_light)
-            fixes.add_light(prepared.camera);
+            fixes.add_light(missing_light(prepared, cancel));
     return fixes.finish();
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "vera/base/parallel.h"
 #include "vera/formats/text_edits.h"
 #include "vera/solids/solid_findings.h"
 
@@ -21,8 +22,12 @@ struct SceneFixes {
 
 /// What corrects the findings in the scene's first file, a VERA text: what stands twice is left
 /// out, inner points move inside, the corners of turned faces change their order, and a scene
-/// without light gets one. Findings of other kinds are not counted.
+/// without light gets one from where what is seen is lit. Findings of other kinds are not counted.
+/// Throws Cancelled.
 SceneFixes scene_fixes(
-    const PreparedScene& prepared, std::span<const SolidFinding> findings, std::string_view text);
+    const PreparedScene& prepared,
+    std::span<const SolidFinding> findings,
+    std::string_view text,
+    const CancelFlag& cancel);
 
 } // namespace vera

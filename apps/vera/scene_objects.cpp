@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene_objects.h"
 
-#include "vera/formats/item_place.h"
 #include "vera/scene/item_names.h"
 #include "vera/scene/primitive_location.h"
 
-#include <system_error>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -18,36 +17,22 @@ SceneObject SceneObjects::object(FaceId face) {
     PrimitiveLocation location = location_of(*geometry, face.primitive);
     while (geometry->items[location.item].kind == ItemKind::subscene_call) {
         const Item& item = geometry->items[location.item];
+        const SourcePlace place = places_.place(*geometry, location.item);
         geometry =
             &scene_.subscenes[static_cast<std::size_t>(geometry->calls[item.index].subscene)];
-        object.calls.push_back({geometry->name, place(item)});
+        object.calls.push_back({geometry->name, place});
         location = location_of(*geometry, location.within);
     }
     const Item& item = geometry->items[location.item];
     object.kind = name_of(item.kind);
+    std::optional<std::uint64_t> triangle;
     if (item.kind == ItemKind::mesh) {
         object.kind = "triangle of a mesh";
         object.triangle = location.within + 1;
+        triangle = location.within;
     }
-    object.place = place(item);
+    object.place = places_.place(*geometry, location.item, triangle);
     return object;
-}
-
-SourcePlace SceneObjects::place(const Item& item) {
-    if (item.file >= scene_.files.size())
-        return {};
-    const std::string& file = scene_.files[item.file];
-    const auto [found, is_new] = texts_.try_emplace(item.file);
-    if (is_new && file != "-") {
-        try {
-            found->second = std::make_unique<SourceText>(file);
-        } catch (const std::system_error&) {
-            // Gone since it was read; the line is known all the same.
-        }
-    }
-    if (!found->second)
-        return {file, item.line, 1};
-    return source_place(item_place(item, *found->second));
 }
 
 std::string to_text(const SourcePlace& place) {

@@ -2,15 +2,14 @@
 #pragma once
 
 #include "vera/base/diagnostic.h"
-#include "vera/formats/source_text.h"
 #include "vera/scene/hit.h"
 #include "vera/scene/scene.h"
 
 #include <cstdint>
-#include <map>
-#include <memory>
 #include <string>
 #include <vector>
+
+#include "item_places.h"
 
 namespace vera {
 
@@ -25,7 +24,7 @@ struct SceneObject {
     std::string kind;           ///< "sphere", "triangle of a mesh"
     std::uint64_t number = 0;   ///< of the primitive, from 1 in text order, subscenes expanded
     std::uint64_t triangle = 0; ///< of a mesh, from 1; else 0
-    SourcePlace place;          ///< of its statement
+    SourcePlace place;          ///< of its statement, or of its face in an OBJ file
     std::vector<Call> calls;    ///< from the main scene inwards
 };
 
@@ -33,15 +32,14 @@ struct SceneObject {
 class SceneObjects {
 public:
     explicit SceneObjects(const Scene& scene)
-        : scene_(scene) {}
+        : scene_(scene)
+        , places_(scene) {}
 
     SceneObject object(FaceId face);
 
 private:
-    SourcePlace place(const Item& item);
-
     const Scene& scene_;
-    std::map<std::uint16_t, std::unique_ptr<SourceText>> texts_; ///< empty: cannot be read again
+    ItemPlaces places_;
 };
 
 /// "still_life.vera:12:1"

@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "option_values.h"
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
@@ -111,13 +112,49 @@ void add_strategy_option(CLI::App& command, StrategyRequest& request) {
             "--strategy",
             request.kind,
             "what finds the visible surfaces: rays; visible: their exact outlines, each filled by "
-            "its exact part of a pixel; depth: a depth buffer")
-        ->type_name("rays|visible|depth")
-        ->check(CLI::IsMember({"rays", "visible", "depth"}).description(""))
+            "its exact part of a pixel; depth: a depth buffer; central: rays that are looked up in "
+            "maps of what the viewer and each light sees, for scenes without mirrors and glass; "
+            "primitive-query: rays, whole generations of them found for each primitive")
+        ->type_name("rays|visible|depth|central|primitive-query")
+        ->check(CLI::IsMember({"rays", "visible", "depth", "central", "primitive-query"})
+                    .description(""))
         ->capture_default_str();
+    command
+        .add_option(
+            "--queries",
+            request.queries,
+            "of primitive-query: sweep, one space sweep of all rays; groups, sweeps of rays that "
+            "are near to one another; auto, as their crossings tell [auto]")
+        ->type_name("auto|sweep|groups")
+        ->check(CLI::IsMember({"auto", "sweep", "groups"}).description(""));
+    command
+        .add_option(
+            "--generation-size",
+            request.generation_size,
+            "of primitive-query: rays at a time; 0: all of a generation [0]")
+        ->type_name("N");
 }
 
-void check_options(const StrategyRequest& request, const PictureOptions& options) {
+void check_options(
+    const StrategyRequest& request, const IndexRequest& index, const PictureOptions& options) {
+    if (request.is_by_primitive()) {
+        if (index.kind != "auto")
+            throw CommandLineError(fmt::format(
+                "--index {} finds hits ray by ray, and --strategy primitive-query for each "
+                "primitive: leave one of them out",
+                index.kind));
+        generation_size(request);
+        return;
+    }
+    for (const auto& [option, is_given] :
+         {std::pair{"--queries", !request.queries.empty()},
+          std::pair{"--generation-size", request.generation_size.has_value()}})
+        if (is_given)
+            throw CommandLineError(fmt::format(
+                "{0} is of --strategy primitive-query: give that, or leave {0} out", option));
+    if (request.is_central() && index.kind != "auto")
+        throw CommandLineError(
+            "--strategy central looks rays up in maps and needs no index: leave --index out");
     if (request.is_rays())
         return;
     if (options.tolerance)
@@ -127,6 +164,26 @@ void check_options(const StrategyRequest& request, const PictureOptions& options
             request.kind));
     if (request.kind == "visible" && options.samples)
         throw CommandLineError("--strategy visible takes exact areas, not --samples: leave it out");
+}
+
+std::size_t generation_size(const StrategyRequest& request) {
+    if (!request.is_by_primitive())
+        return usual_generation_size;
+    constexpr std::uint32_t most = 1'000'000'000;
+    const std::uint32_t size =
+        whole_of("--generation-size", request.generation_size.value_or(0), 0, most);
+    return size == 0 ? whole_generations : size;
+}
+
+std::unique_ptr<PrimitiveQueryIndex> primitive_query_index(
+    const StrategyRequest& request, const Scene& scene, const CancelFlag& cancel) {
+    PrimitiveQuerySettings settings;
+    if (request.queries == "sweep")
+        settings.queries = RayQueries::sweep;
+    if (request.queries == "groups")
+        settings.queries = RayQueries::groups;
+    settings.cancel = &cancel;
+    return std::make_unique<PrimitiveQueryIndex>(scene, std::move(settings));
 }
 
 SeenParts seen_parts(

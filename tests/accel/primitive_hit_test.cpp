@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "accel/random_scene.h"
 #include <gtest/gtest.h>
@@ -29,6 +30,30 @@ TEST(PrimitiveHit, IsWhatAnIndexAnswersWhereThePrimitiveIsMetFirst) {
         }
     }
     EXPECT_GT(found, 500);
+}
+
+TEST(PrimitiveHit, IsWhatAnIndexAnswersOfARayThatStartsOnAFaceAsWell) {
+    int found = 0;
+    for (std::uint64_t seed = 0; seed < 12; ++seed) {
+        const Scene scene = testing::random_scene(seed, {.items = 20});
+        const auto index = make_brute_force(scene);
+        const std::vector<QueryRay> rays = testing::random_rays(seed, 150, 1);
+        std::vector<Hit> hits(rays.size());
+        QueryCounts counts;
+        index->nearest_hits(rays, hits, counts);
+        for (const QueryRay& query : testing::rays_from_hits(seed, rays, hits)) {
+            // None before the first, nor the face that the ray starts on.
+            std::array<Hit, 1> expected;
+            index->nearest_hits(std::array{query}, expected, counts);
+            if (expected[0].found()) {
+                EXPECT_EQ(primitive_hit(scene, query, expected[0].face.primitive), expected[0]);
+                ++found;
+            } else if (query.start.primitive != no_primitive) {
+                EXPECT_FALSE(primitive_hit(scene, query, query.start.primitive).found());
+            }
+        }
+    }
+    EXPECT_GT(found, 300);
 }
 
 TEST(PrimitiveHit, MeetsNoPrimitiveBeforeTheFirst) {

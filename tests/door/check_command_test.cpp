@@ -86,14 +86,17 @@ TEST(CheckCommand, CountsNotesOfSolidsAndShowsThemWhenStrict) {
     folder.write("a.vera", std::string(small_scene) + "CM grey\nP3 -1 -1 0  1 -1 0  0 1 0\n");
     const ProgramRun run = run_vera(folder, "check a.vera");
     EXPECT_EQ(run.exit_code, 0) << run.err;
-    EXPECT_EQ(run.out, "a.vera: good, with 1 note (--strict shows it)\n");
+    EXPECT_EQ(run.out, "a.vera: good, with 2 notes (--strict shows them)\n");
     EXPECT_EQ(run.err, "");
     const ProgramRun strict = run_vera(folder, "check a.vera --strict");
     EXPECT_EQ(strict.exit_code, 0);
-    EXPECT_EQ(strict.out, "a.vera: good, with 1 note\n");
+    EXPECT_EQ(strict.out, "a.vera: good, with 2 notes\n");
     EXPECT_EQ(
         strict.err,
         "a.vera:8:1: note: this face or mesh passes through that of line 4\n"
+        "    P3 -1 -1 0  1 -1 0  0 1 0\n"
+        "    ^~\n"
+        "a.vera:8:1: note: this face or mesh passes through the sphere of line 5\n"
         "    P3 -1 -1 0  1 -1 0  0 1 0\n"
         "    ^~\n");
     EXPECT_NE(
@@ -160,7 +163,7 @@ TEST(CheckCommand, ProposesCorrectionsAsADiff) {
         "+++ b/a.vera\n"
         "@@ -1,20 +1,20 @@\n"
         " (* Without light. *)\n"
-        "+LI -4.802 8.723 8  150.6  1 1 1\n"
+        "+LI -4.8 8.72 8  143.2  1 1 1\n"
         " PROJECTION 0 2 8  -2 0 0  2 0 0  -2 4 0\n"
         " CM glass\n"
         "-IP 0.5   3  0.5   (* meant to be inside *)\n"
@@ -177,8 +180,8 @@ TEST(CheckCommand, ProposesCorrectionsAsADiff) {
         " SCENE pyramid\n"
         "   P3 0 0 0  0 1 0  1 0 0   P3 0 0 0  1 0 0  0 0 1 (* base *)\n"
         "-  P3 0 0 0  (* back *) 0 1 0\n"
-        "+  P3 0 0 0  (* back *) 0 0 1\n"
         "-            0 0 1\n"
+        "+  P3 0 0 0  (* back *) 0 0 1\n"
         "+            0 1 0\n"
         "   P3 1 0 0  0 1 0  0 0 1\n"
         "     SP 9 9 9 1\n"
@@ -197,6 +200,114 @@ TEST(CheckCommand, ProposesWhatPatchTakesInFoldersToo) {
     EXPECT_EQ(run.exit_code, 0) << run.err;
     EXPECT_NE(folder.read("some models/a.vera"), bad_scene);
     EXPECT_EQ(run_vera(folder, "check 'some models/a.vera' --fix").out, "");
+
+    // By its whole path, from its folder's parent and from elsewhere.
+    for (const char* from : {".", "some models", "elsewhere"}) {
+        std::filesystem::create_directories(folder.path() / from);
+        folder.write("some models/a.vera", bad_scene);
+        const std::string patched = std::string(from) == "elsewhere" ? "../some models" : ".";
+        const ProgramRun by_path = run_vera(
+            folder,
+            "check '" + (folder.path() / "some models/a.vera").string() + "' --fix | (cd '"
+                + patched + "' && patch -s -p1)",
+            std::string("cd '") + from + "' &&");
+        EXPECT_EQ(by_path.exit_code, 0) << from << by_path.err;
+        EXPECT_EQ(
+            by_path.err.find("the diff is for 'patch -p1' in the folder of ") == std::string::npos,
+            patched == ".")
+            << by_path.err;
+        EXPECT_NE(folder.read("some models/a.vera"), bad_scene) << from;
+    }
+}
+
+TEST(CheckCommand, PlacesEachOfSeveralItemsOfALine) {
+    const ScratchFolder folder;
+    folder.write(
+        "a.vera",
+        std::string(small_scene)
+            + "CM grey P3 0 0 0 1 0 0 0 1 1  P3 0 0 0 1 0 0 0 1 1  P3 0 0 0 1 0 0 0 1 1\n");
+    const ProgramRun run = run_vera(folder, "check a.vera");
+    for (const char* place : {"a.vera:7:31: ", "a.vera:7:53: "})
+        EXPECT_NE(
+            run.err.find(place + std::string("warning: the same face stands in line 7 already")),
+            std::string::npos)
+            << run.err;
+    const ProgramRun explained = run_vera(folder, "explain a.vera 3 3 --raster 8x8");
+    EXPECT_EQ(explained.exit_code, 0);
+}
+
+TEST(CheckCommand, NamesTheFaceOfAMeshFile) {
+    const ScratchFolder folder;
+    folder.write(
+        "a.obj",
+        "# two squares and a triangle, which stands twice\n"
+        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n\n"
+        "f 1 1 2\n"
+        "f 1 2 \\\n3 4\n"
+        "f 1 3 4\n");
+    const ProgramRun run = run_vera(folder, "check a.obj --strict");
+    EXPECT_NE(
+        run.err.find(
+            "a.obj:10:1: note: 1 triangle of this mesh stands in the same place as another "
+            "face (at triangle 3)\n    f 1 3 4\n    ^\n"),
+        std::string::npos)
+        << run.err;
+    folder.write("a.vera", std::string(small_scene) + "CM grey MESH \"a.obj\"\n");
+    const ProgramRun within = run_vera(folder, "check a.vera --strict");
+    EXPECT_NE(
+        within.err.find("a.vera:7:9: note: 1 triangle of this mesh stands in the same place as "
+                        "another face (at triangle 3)\n"),
+        std::string::npos)
+        << within.err;
+}
+
+/// The part of the pixels that are not black, of a picture written as PPM.
+double lit_part(const std::string& ppm, std::size_t pixels) {
+    std::size_t lit = 0;
+    for (std::size_t i = 0; i < pixels; ++i)
+        lit += ppm.substr(ppm.size() - 3 * (i + 1), 3) != std::string(3, '\0') ? 1 : 0;
+    return static_cast<double>(lit) / static_cast<double>(pixels);
+}
+
+TEST(CheckCommand, LightsWhatTheViewerSeesInAClosedRoomToo) {
+    const ScratchFolder folder;
+    std::string room;
+    {
+        std::ifstream file(VERA_SOURCE_DIR "/scenes/mirror_room.vera");
+        for (std::string line; std::getline(file, line);)
+            if (!line.starts_with("LI "))
+                room += line + "\n";
+    }
+    // The same, small and far from the origin.
+    const std::string far =
+        "PROJECTION 5000.1 3000.4 7000.5  5000.1 3000.4 7000.4  5000.2 3000.4 "
+        "7000.4  5000.1 3000.5 7000.4\n"
+        "CM a SSC box TR 5000 3000 7000\n"
+        "SCENE box P4 0 0 0  1 0 0  1 1 0  0 1 0  P4 0 0 1  1 0 1  1 1 1  0 1 1\n"
+        "P4 0 0 0  1 0 0  1 0 1  0 0 1  P4 0 1 0  1 1 0  1 1 1  0 1 1\n"
+        "P4 0 0 0  0 1 0  0 1 1  0 0 1  P4 1 0 0  1 1 0  1 1 1  1 0 1\n"
+        "MA a DRF 0.7 0.7 0.7\n";
+    const std::string open = std::string(small_scene).erase(40, 19);
+
+    const struct {
+        std::string text;
+        double seen; // the part of the picture that shows something
+    } scenes[] = {{room, 1}, {far, 1}, {open, 0.48}};
+
+    for (const auto& [text, seen] : scenes) {
+        folder.write("a.vera", text);
+        ASSERT_NE(run_vera(folder, "check a.vera").err.find("there is no light"), std::string::npos)
+            << text;
+        const ProgramRun run = run_vera(folder, "check a.vera --fix --write b.vera");
+        ASSERT_EQ(run.exit_code, 0) << run.err;
+        EXPECT_EQ(run_vera(folder, "check b.vera").err, "");
+        const std::string render = "-o x.ppm --raster 24x18 --antialias off --ambient 0 0 0 -q";
+        ASSERT_EQ(run_vera(folder, "render a.vera " + render).exit_code, 0);
+        EXPECT_EQ(lit_part(folder.read("x.ppm"), 432), 0);
+        ASSERT_EQ(run_vera(folder, "render b.vera " + render).exit_code, 0);
+        const double lit = lit_part(folder.read("x.ppm"), 432);
+        EXPECT_GT(lit, 0.6 * seen) << folder.read("b.vera");
+    }
 }
 
 TEST(CheckCommand, WritesACorrectedSceneInWhichNothingIsLeftToCorrect) {

@@ -155,6 +155,7 @@ TEST_F(ConvertCommand, RefusesWhatMakesNoSense) {
     EXPECT_THAT(refusal("a.png"), HasSubstr("takes the picture to read and the one to write"));
     EXPECT_THAT(refusal("a.png b.xyz"), HasSubstr("give --format with one of png"));
     EXPECT_THAT(refusal("a.png b.gfi"), HasSubstr("did you mean 'b.gif'"));
+    EXPECT_THAT(refusal("a.png no/"), HasSubstr("there is no folder 'no/'; make it first"));
     EXPECT_THAT(refusal("a.png -"), HasSubstr("needs --format"));
     EXPECT_THAT(refusal("a.png b.png --format tiff"), HasSubstr("does not know 'tiff'"));
     EXPECT_THAT(refusal("a.png b.png --colors 1"), HasSubstr("from 2 to 256; found 1"));
@@ -170,12 +171,45 @@ TEST_F(ConvertCommand, RefusesWhatMakesNoSense) {
     EXPECT_THAT(refusal("a.png b.vra --error 2 --colors 4"), HasSubstr("leave one out"));
     EXPECT_THAT(refusal("a.png b.png --quality 5"), HasSubstr("--quality is for JPEG"));
     EXPECT_THAT(refusal("a.png b.png --exposure nan"), HasSubstr("--exposure"));
-    for (const char* crop : {"5x5", "0x5+1+1", "5x5+1+1x", "-5x5+1+1", "99999999999x5+0+0"})
+    for (const char* crop : {"5x5", "0x5+1+1", "5x5+1+1x", "-5x5+1+1"})
         EXPECT_THAT(refusal(std::string("a.png b.png --crop ") + crop), HasSubstr("--crop takes"));
-    EXPECT_THAT(refusal("a.png b.png --crop 60x40+1+0"), HasSubstr("60 x 40 pixels"));
+    for (const char* crop :
+         {"60x40+1+0", "99999999999x5+0+0", "5x5+1+99999999999999999999999999999999"})
+        EXPECT_THAT(
+            refusal(std::string("a.png b.png --crop ") + crop),
+            HasSubstr("is not within the picture, which has 60 x 40 pixels; take less"));
+    std::filesystem::create_directory(folder.path() / "out");
+    for (const char* no_film : {"a.png b.png", "a.png b.gif", "a.png a.vra out --format gif"})
+        EXPECT_THAT(
+            refusal(std::string(no_film) + " --delay 10"),
+            HasSubstr("--delay is for one GIF that shows several pictures in turn"));
+    for (const char* one : {"a.png b.gif", "a.png b.png --colors 9"})
+        EXPECT_THAT(
+            refusal(std::string(one) + " --palette-for-all"),
+            HasSubstr("--palette-for-all is for several pictures"));
+    EXPECT_THAT(refusal("- out --format png"), HasSubstr("convert it alone"));
+    EXPECT_THAT(refusal("a.png b.png --quality 95"), HasSubstr("--quality is for JPEG"));
     EXPECT_EQ(run_vera(folder, "convert none.png b.png").exit_code, 3);
+    const ProgramRun endless = run_vera(folder, "convert a.png b.png --palette /dev/zero");
+    EXPECT_EQ(endless.exit_code, 1);
+    EXPECT_THAT(endless.err, HasSubstr("this is no palette: it has more than a million bytes"));
     folder.write("broken.png", "no picture");
     EXPECT_EQ(run_vera(folder, "convert broken.png b.png").exit_code, 1);
+}
+
+TEST_F(ConvertCommand, WritesNoneOfSeveralPicturesWhereOneCannotBeRead) {
+    std::filesystem::create_directory(folder.path() / "out");
+    folder.write("broken.png", folder.read("a.png").substr(0, 200));
+    folder.write("z.vra", folder.read("a.vra").substr(0, 200));
+    for (const char* wrong : {"none.png", "broken.png", "z.vra"}) {
+        const ProgramRun run =
+            run_vera(folder, std::string("convert a.png ") + wrong + " out --format ppm");
+        EXPECT_NE(run.exit_code, 0) << wrong;
+        EXPECT_THAT(run.err, HasSubstr(wrong));
+        EXPECT_TRUE(std::filesystem::is_empty(folder.path() / "out")) << wrong;
+    }
+    must_run("a.png out --format ppm");
+    EXPECT_FALSE(std::filesystem::is_empty(folder.path() / "out"));
 }
 
 } // namespace

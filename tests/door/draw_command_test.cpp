@@ -287,7 +287,7 @@ TEST(DrawCommand, RefusesWhatItCannotUnderstand) {
         const char* arguments;
         const char* problem;
     } wrong[] = {
-        {"", "--output is required"},
+        {"", "-o DRAWING is missing; write vera draw SCENE -o DRAWING"},
         {"-o -", "a drawing on standard output needs --format, as in --format svg"},
         {"-o a.xyz",
          "cannot tell the format of 'a.xyz' by its name; give --format with one of svg, pdf, eps, "
@@ -334,6 +334,9 @@ TEST(DrawCommand, RefusesWhatItCannotUnderstand) {
         {"-o a.svg --precision nan", "--precision takes a number from 1e-06 to 1; found nan"},
         {"-o a.svg --deviation 0", "--deviation takes a number from 0.0001 to 100; found 0"},
         {"-o a.svg --deviation 101", "--deviation takes a number from 0.0001 to 100; found 101"},
+        {"-o a.svg --color-tolerance 2",
+         "--color-tolerance is for gradients, and --style flat has none; take --style shaded"},
+        {"-o a.vera --format svg", "--output would write over 'a.vera', which is read"},
         {"-o a.svg --color-tolerance 0.5",
          "--color-tolerance takes a number from 0.6 to 255; found 0.5"},
         {"-o a.svg --page -1", "--page takes a number from 0 to 100000; found -1"},

@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cctype>
 #include <cmath>
+#include <sstream>
+#include <vector>
 
 #include "door/program.h"
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace vera {
@@ -153,6 +159,74 @@ TEST(ExplainCommand, DrawsTheRays) {
     EXPECT_EQ(explained(folder, "1 1 --raster 64x64 --svg -").substr(0, 5), "<?xml");
 }
 
+/// The area of the largest triangle between points of the drawing's lines of the scene.
+double largest_triangle(const std::string& svg) {
+    std::vector<std::array<double, 2>> points;
+    const std::string before = "<polyline points=\"";
+    for (std::size_t at = svg.find(before); at != std::string::npos;
+         at = svg.find(before, at + 1)) {
+        const std::size_t first = at + before.size();
+        std::string numbers = svg.substr(first, svg.find('"', first) - first);
+        std::ranges::replace(numbers, ',', ' ');
+        std::istringstream stream(numbers);
+        for (std::array<double, 2> point = {}; stream >> point[0] >> point[1];)
+            points.push_back(point);
+    }
+    double largest = 0;
+    for (const auto& a : points)
+        for (const auto& b : points)
+            for (const auto& c : points)
+                largest = std::max(
+                    largest,
+                    std::abs((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) / 2);
+    return largest;
+}
+
+TEST(ExplainCommand, DrawsTheSurfaceThatIsMetFromWhereItIsNotEdgeOn) {
+    const ScratchFolder folder;
+
+    // A square of 2 x 2 and the viewer straight before it, 6 away: seen wholly from aside, the
+    // square would be a line.
+    const struct {
+        const char* square;
+        const char* camera;
+        const char* light;
+    } scenes[] = {
+        {"-1 -1 0  1 -1 0  1 1 0  -1 1 0", "0 0 6  -2 -2 0  2 -2 0  -2 2 0", "0 0 6"},
+        {"0 -1 -1  0 -1 1  0 1 1  0 1 -1", "6 0 0  0 -2 2  0 -2 -2  0 2 2", "6 0 0"},
+        {"-1 0 -1  1 0 -1  1 0 1  -1 0 1", "0 6 0  -2 0 2  2 0 2  -2 0 -2", "0 6 0"},
+    };
+
+    for (const auto& [square, camera, light] : scenes) {
+        folder.write(
+            "a.vera",
+            fmt::format(
+                "PROJECTION {}\nLI {} 30 1 1 1\nMA a DRF 1 1 1 CM a P4 {}\n",
+                camera,
+                light,
+                square));
+        explained(folder, "16 16 --raster 33x33 --svg rays.svg");
+        EXPECT_GT(largest_triangle(folder.read("rays.svg")), 4000) << square;
+    }
+}
+
+TEST(ExplainCommand, WritesHugeNumbersShort) {
+    const ScratchFolder folder;
+    folder.write(
+        "a.vera",
+        "PROJECTION 0 0 6e60  -2e60 -2e60 0  2e60 -2e60 0  -2e60 2e60 0\n"
+        "LI 0 0 6e60 1e300 1e9 1 1\n"
+        "MA a DRF 1 1 1 SDI 1e300 1e-300 0.1 CM a SP 0 0 0 1e60\n");
+    for (const std::string& text :
+         {explained(folder, "16 16 --raster 33x33"), run_vera(folder, "info a.vera").out}) {
+        std::size_t digits = 0;
+        for (const char letter : text) {
+            digits = std::isdigit(static_cast<unsigned char>(letter)) != 0 ? digits + 1 : 0;
+            ASSERT_LT(digits, 20U) << text;
+        }
+    }
+}
+
 /// What a ray's visits, and those of a shadow ray, list adds up to what was counted.
 void expect_counted_visits(const nlohmann::json& ray) {
     std::size_t cells = 0;
@@ -264,7 +338,9 @@ TEST(ExplainCommand, RefusesPixelsThatThePictureDoesNotHave) {
         {"0 32", "Y takes a whole number from 0 to 31; found 32"},
         {"1.5 0", "X takes a whole number from 0 to 63; found 1.5"},
         {"-1 0", "X takes a whole number from 0 to 63; found -1"},
-        {"5", "y is required"},
+        {"5", "Y is missing; write vera explain SCENE X Y"},
+        {"5 left", "Y (row of the pixel, 0 at the top) takes a number; found 'left'"},
+        {"5 5 --threads -1", "--threads takes a whole number from 0 to 1024; found -1"},
         {"5 5 --svg rays.png", "--svg writes SVG; found 'rays.png'; name it as in rays.svg"},
     };
 

@@ -59,6 +59,7 @@ TEST(InfoCommand, RefusesPicturesOfTheGridThatItCannotMake) {
         const char* problem;
     } wrong[] = {
         {"--draw-grid a.pdf", "--draw-grid writes SVG and PNG; found 'a.pdf'"},
+        {"--grid-levels 2", "--grid-levels is without effect alone; give --draw-grid PICTURE too"},
         {"--draw-grid a.svg --grid-levels 0", "--grid-levels"},
         {"--draw-grid a.svg --grid-cut 1", "--grid-cut"},
         {"--draw-grid a.svg --grid-from 9", "no cell of level 9 or deeper is left to draw"},

@@ -75,6 +75,53 @@ TEST(LadderCommand, EndsWithThePictureThatIsRenderedWithTheSameSettings) {
     }
 }
 
+/// The bytes of the PNG from which its text of that name is read.
+std::string text_of(const std::string& png, const std::string& name) {
+    const std::size_t at = png.find("tEXt" + name + '\0');
+    if (at == std::string::npos)
+        return {};
+    const std::size_t first = at + 5 + name.size();
+    return png.substr(first, png.find("tEXt", first) - first);
+}
+
+TEST(LadderCommand, WritesPicturesThatTellOfThemselvesAsRenderDoes) {
+    const ScratchFolder folder;
+    folder.write("a.vera", full_scene);
+    for (const std::string exposure : {"", " --exposure 0.6"}) {
+        ASSERT_EQ(
+            run_vera(folder, "ladder a.vera -o steps" + exposure + small_picture).exit_code, 0);
+        ASSERT_EQ(
+            run_vera(folder, "render a.vera -o a.png" + exposure + small_picture).exit_code, 0);
+        const std::string last = folder.read("steps/5-rays.png");
+        for (const char* name : {"Software", "Scene hash", "Camera"}) {
+            EXPECT_NE(text_of(last, name), "") << name;
+            EXPECT_EQ(
+                text_of(last, name).substr(0, 20),
+                text_of(folder.read("a.png"), name).substr(0, 20));
+        }
+        EXPECT_EQ(text_of(last, "Title").substr(0, 26), "Shadows, mirrors and glass");
+        const std::string settings = text_of(last, "Settings");
+        EXPECT_NE(settings.find("RASTER 48 36 RTDEPTH 3"), std::string::npos) << settings;
+        EXPECT_EQ(settings.find("EXPMES"), std::string::npos) << settings;
+        EXPECT_EQ(settings.find("LIGHTS") == std::string::npos, exposure.empty()) << settings;
+        EXPECT_NE(
+            text_of(folder.read("steps/1-flat.png"), "Settings").find("RTDEPTH 1"),
+            std::string::npos);
+    }
+}
+
+TEST(LadderCommand, CountsProbeRaysApart) {
+    const ScratchFolder folder;
+    folder.write("a.vera", full_scene);
+    ASSERT_EQ(
+        run_vera(folder, "ladder a.vera -o steps --raster 1x1 --antialias off -q").exit_code, 0);
+    const std::string one = folder.read("steps/sheet.svg");
+    EXPECT_NE(one.find(">1 ray<"), std::string::npos);
+    EXPECT_EQ(one.find(">1 rays<"), std::string::npos);
+    for (const char* kind : {">view<", ">probe<", ">shadow<", ">mirrored<", ">refracted<"})
+        EXPECT_NE(one.find(kind), std::string::npos) << kind;
+}
+
 TEST(LadderCommand, SaysWhichStepsChangeNothing) {
     const ScratchFolder folder;
     folder.write("a.vera", small_scene);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <map>
+#include <string>
 
 #include "door/program.h"
 
@@ -26,11 +28,27 @@ TEST(Program, HelpsOnItselfAndEveryCommandWithExamples) {
           "ladder --help",
           "make --help",
           "convert --help",
-          "solve --help"}) {
+          "solve --help",
+          "bench --help",
+          "bench curve --help"}) {
         const ProgramRun run = run_vera(folder, arguments);
         EXPECT_EQ(run.exit_code, 0) << arguments;
         EXPECT_NE(run.out.find("Examples:"), std::string::npos) << arguments;
         EXPECT_EQ(run.err, "") << arguments;
+    }
+}
+
+TEST(Program, ShowsFirstWhatACommandCannotDoWithout) {
+    const ScratchFolder folder;
+    for (const auto& [command, rest] : std::map<std::string, std::string>{
+             {"render", "SCENE -o PICTURE"},
+             {"explain", "SCENE X Y"},
+             {"convert", "IN... OUT"},
+             {"make surface", "X Y Z -o SCENE"}}) {
+        const std::string help = run_vera(folder, command + " --help").out;
+        EXPECT_NE(
+            help.find("\nUsage: vera " + command + " " + rest + " [OPTIONS]\n"), std::string::npos)
+            << help;
     }
 }
 
@@ -45,9 +63,39 @@ TEST(Program, SaysWhatIsWrongWithACommandLine) {
         {"rendr a.vera", "vera: error: unknown command 'rendr'; did you mean 'render'?"},
         {"render a.vera -o a.png --rastr 5x5",
          "unknown option '--rastr'; did you mean '--raster'?"},
-        {"render a.vera", "--output is required"},
-        {"render", "scene is required"},
-        {"render a.vera -o a.png extra", "unknown argument 'extra'"},
+        {"hello", "unknown command 'hello'; it is one of render, draw, "},
+        {"-q render", "unknown option '-q' before the command; write it behind: vera render -q"},
+        {"render a.vera", "-o PICTURE is missing; write vera render SCENE -o PICTURE"},
+        {"render", "SCENE is missing; write vera render SCENE -o PICTURE"},
+        {"info", "SCENE is missing; write vera info SCENE"},
+        {"convert", "IN... OUT is missing; write vera convert IN... OUT"},
+        {"solve a.exr", "-o CONTROL is missing; write vera solve LAYERS -o CONTROL"},
+        {"render a.vera -o a.png extra",
+         "unknown argument 'extra'; write vera render SCENE -o PICTURE"},
+        {"render a.vera -o a.png -q=no", "unknown option '-=no'"},
+        {"render a.vera -o a.png -o b.png",
+         "--output is given 2 times, with 'a.png' and 'b.png'; give it once"},
+        {"render a.vera -o",
+         "--output PICTURE (picture to write; - for standard output) takes a value; found none"},
+        {"render a.vera -o=a.png", "'=' is for long names; write -o a.png or --output=a.png"},
+        {"render a.vera -o ''", "takes a value; found '', which is empty"},
+        {"render a.vera -o a.png --depth ''", "takes a value; found '', which is empty"},
+        {"render a.vera -o a.png --json=5", "--json takes no value; leave out what stands behind"},
+        {"render a.vera -o a.png --index", "--index takes auto, bvh, grid or brute; found none"},
+        {"render a.vera -o a.png --index gird",
+         "--index takes auto, bvh, grid or brute; found 'gird'; did you mean 'grid'?"},
+        {"render a.vera -o a.png --index bvh --index grid",
+         "--index is given 2 times, with 'bvh' and 'grid'; give it once"},
+        {"render a.vera -o a.png --sky 1 2",
+         "--sky R G B (colour of the sky overhead) takes 3 values; found 2: '1' and '2'"},
+        {"render a.vera -o a.png --sky 1 2 blue", "takes 3 numbers; found 'blue'"},
+        {"convert a.png b.png --colors x",
+         "--colors N (the best so many, 2 to 256; 256 for GIF) takes a number; found 'x'"},
+        {"convert a.png b.png --palette",
+         "text file of #rrggbb, one a line) takes a value; found none"},
+        {"draw a.vera -o a.svg --verify=x", "takes a number; found 'x'"},
+        {"solve a.exr -o a.ctl --lights", "takes values; found none"},
+        {"solve a.exr -o a.ctl --lights red", "takes numbers; found 'red'"},
     };
 
     for (const auto& [arguments, problem] : wrong) {

@@ -141,6 +141,7 @@ TEST_F(SolveCommand, WarnsWhereAWishCannotBeMet) {
 
 TEST_F(SolveCommand, RefusesWhatItCannotSolve) {
     folder.write("b.exr", "no picture");
+    folder.write("cut.exr", folder.read("a.exr").substr(0, 500));
     ASSERT_EQ(run_vera(folder, "render a.vera --raster 8x8 -o plain.exr -q").exit_code, 0);
 
     const struct {
@@ -157,7 +158,11 @@ TEST_F(SolveCommand, RefusesWhatItCannotSolve) {
         {"a.exr --mean 0 0 1 1 1 --lights 3", "--lights takes a whole number from 1 to 2", 2},
         {"a.exr --mean 0 0 1 1 1 --least 2 --most 1", "--least must not be more than --most", 2},
         {"a.exr --exposure 2", "--exposure takes a number from", 2},
-        {"b.exr --exposure 1", "b.exr", 1},
+        {"b.exr --exposure 1", "b.exr: error: this is no EXR file, and layers are in one", 1},
+        {"b.exr --exposure 1", "name the EXR file that 'vera render SCENE -o PICTURE --layers", 1},
+        {"cut.exr --exposure 1",
+         "name the EXR file that 'vera render SCENE -o PICTURE --layers",
+         1},
         {"plain.exr --exposure 1", "plain.exr: error: ", 1},
         {"none.exr --exposure 1", "none.exr", 3},
     };

@@ -234,6 +234,16 @@ TEST(ControlFile, SaysWhatIsWrongWithAProfile) {
         read_control("SKY 1 1 1 PROFILE HILLS").said.substr(0, 93),
         "test.ctl:1:19: error: expected MOUNTAINS or the number of points of PROFILE, found "
         "'HILLS'\n  ");
+    // The largest number below which doubles tell all whole ones apart.
+    EXPECT_EQ(read_control("SKY 1 1 1 PROFILE MOUNTAINS 9007199254740991 10 1").said, "");
+    for (const char* seed : {"9007199254740992", "9007199254740993", "1e300"})
+        EXPECT_EQ(
+            read_control("SKY 1 1 1 PROFILE MOUNTAINS " + std::string(seed) + " 10 1")
+                .said.find(
+                    "test.ctl:1:29: error: expected the seed of MOUNTAINS, a whole number "
+                    "from 0 to 9007199254740991, found '"
+                    + std::string(seed) + "'\n"),
+            0U);
     EXPECT_EQ(
         read_control("PROFILE MOUNTAINS 1 10 1").said,
         "test.ctl:1:1: warning: PROFILE is ignored without SKY\n"

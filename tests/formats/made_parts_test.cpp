@@ -99,10 +99,27 @@ TEST(MadeParts, SayWhatIsWrongAtItsPlace) {
         HasSubstr("made.vera:1:24: error: the range goes from 2 to 1"));
     EXPECT_THAT(
         errors("MK surface \"1/u\" \"v\" \"1\" u -1 1\n"),
-        HasSubstr("made.vera:1:4: error: the surface has no value"));
+        HasSubstr("made.vera:1:4: error: x has no finite value at u = 0, v = "));
+    EXPECT_THAT(
+        errors("MK surface \"u\" \"u\" \"u\"\n"),
+        HasSubstr("made.vera:1:4: error: the surface has no area: all of it is one line"));
     EXPECT_THAT(
         errors("MK surface \"u\" \"v\" \"1\" deviation 0\n"), HasSubstr("must be positive"));
     EXPECT_THAT(errors("MK surface \"u\" 5\n"), HasSubstr("expected a formula in double quotes"));
+    EXPECT_THAT(
+        errors("MK balls size 2\n   size 3\n"),
+        AllOf(
+            HasSubstr("made.vera:2:4: error: size is given twice"),
+            HasSubstr("  the first is at made.vera:1:10; keep one of them")));
+    EXPECT_THAT(
+        errors("MK surface \"u\" \"v\" \"1\" u 0 1 v 0 1 u 0 2\n"),
+        AllOf(
+            HasSubstr("made.vera:1:36: error: u is given twice"),
+            HasSubstr("the first is at made.vera:1:24;")));
+    EXPECT_THAT(
+        errors("MK surface \"u\" \"v\" \"1\" deviation 1 deviation 1\n"),
+        HasSubstr("deviation is given twice"));
+    EXPECT_EQ(errors("MK surface \"u\" \"v*b\" \"a\" let \"a=2\" let \"b=3\"\n"), "");
     EXPECT_THAT(errors("SCENE MK SP 0 0 0 1\n"), HasSubstr("MK"));
 }
 

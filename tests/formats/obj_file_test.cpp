@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/formats/mesh_builder.h"
 
+#include <algorithm>
+#include <iterator>
+#include <random>
+
 #include "formats/mesh_text.h"
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -31,6 +35,34 @@ TEST(ReadObj, SplitsFacesOfMoreThanThreeCorners) {
         mesh_of(read_obj, "v 0 0 0\nv 4 0 0\nv 1 1 0\nv 0 4 0\nv -1 -1 0\nf 1 2 3 4\nf 4 5 1\n");
     EXPECT_EQ(arrow.triangle_count(), 3U);
     EXPECT_EQ(doubled_area(arrow), (Vec3{0, 0, 4 + 4 + 4}));
+}
+
+TEST(ReadObj, KnowsTheLineOfEachTriangle) {
+    // Each with what is read up to there: the triangles that it adds are those of its first line.
+    const std::string statements[] = {
+        "f 1 2 3\n",
+        "f 1 2 3 4\n",
+        "f 1 \\\n 2 3\n",
+        "f 1 1 2\n",
+        "\n",
+        "# f 1 2 3 \\\n",
+        "g a \\\n b\n",
+        "v 0 0 5\n",
+        "f -1 \\\n1 2 \\\n3\n",
+        "f 1 2 3\r\n"};
+    std::mt19937 random(5);
+    for (int round = 0; round < 200; ++round) {
+        std::string text = square + "f 2 3 4\n";
+        std::vector<std::uint32_t> lines = {5};
+        std::uint32_t line = 6;
+        for (int i = 0; i < 8; ++i) {
+            const std::string& statement = statements[random() % std::size(statements)];
+            text += statement;
+            lines.resize(mesh_of(read_obj, text).triangle_count(), line);
+            line += static_cast<std::uint32_t>(std::ranges::count(statement, '\n'));
+        }
+        ASSERT_EQ(obj_triangle_lines(SourceText("test", text)), lines) << text;
+    }
 }
 
 TEST(ReadObj, CountsNegativeNumbersBackwardsFromTheFace) {

@@ -35,6 +35,11 @@ TEST(UnifiedDiff, ShowsThreeLinesAroundAndJoinsWhatIsNear) {
         unified_diff("a\nb", {{2, 1, "c"}}, "x", "y"),
         "--- x\n+++ y\n@@ -1,2 +1,2 @@\n a\n-b\n\\ No newline at end of file\n+c\n\\ No newline at "
         "end of file\n");
+    EXPECT_EQ(unified_diff("a\n", {{0, 1, "b"}}, "x", "y"), "--- x\n+++ y\n@@ -1 +1 @@\n-a\n+b\n");
+    EXPECT_EQ(unified_diff("", {{0, 0, "b\n"}}, "x", "y"), "--- x\n+++ y\n@@ -0,0 +1 @@\n+b\n");
+    EXPECT_EQ(
+        unified_diff("a\nb\nc\n", {{0, 1, "d"}, {2, 1, "e"}}, "x", "y"),
+        "--- x\n+++ y\n@@ -1,3 +1,3 @@\n-a\n-b\n+d\n+e\n c\n");
 }
 
 std::string read(const std::filesystem::path& path) {

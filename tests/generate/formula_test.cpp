@@ -110,6 +110,9 @@ TEST(Formula, SaysWhereItIsWrongAndWhatToDo) {
         {"3 * sine(u)", 4, "there is no 'sine'; did you mean 'sin'?"},
         {"atan2(u)", 7, "expected ',' and another argument of atan2, found ')'"},
         {"u & v", 2, "expected an operator, found '&'"},
+        {"u \u00d7 v", 2, "expected an operator, found '\u00d7'"},
+        {"2*\u03c0", 2, "expected a number, a name or '(', found '\u03c0'"},
+        {"u \xff", 2, "expected an operator, found a byte that is not UTF-8"},
         {"1e999", 0, "this number is too large or too small"},
     };
 

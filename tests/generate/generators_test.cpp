@@ -87,6 +87,37 @@ TEST(Generators, HoldABillionLeavesInFewCalls) {
     EXPECT_GT(forest.geometry.primitive_count, 1'000'000'000U * triangles_of_a_leaf);
 }
 
+// A million balls, and more than a billion tetrahedra, end at the plane that they stand on: to
+// frame them takes no more than to frame one.
+TEST(Generators, AreStagedAtTheirLargestSizes) {
+    for (const char* const name : {"balls", "branches", "jacks", "lattice", "tetra"}) {
+        const Generator& generator = *generator_named(name);
+        ParameterValues values(generator);
+        for (const Parameter& parameter : generator.parameters)
+            if (parameter.name == "size") {
+                EXPECT_EQ(values.set(parameter, parameter.most), std::nullopt);
+            }
+        const Scene scene = staged(generator.make(values), name, generator.stage);
+        EXPECT_TRUE(scene.camera.has_value()) << name;
+        EXPECT_GT(scene.geometry.primitive_count, 10'000'000U) << name;
+    }
+}
+
+// What 'vera make --list' says of it.
+TEST(Generators, MakeABillionLeavesOf340RowsOfStandardTrees) {
+    const std::string summary(generator_named("forest")->summary);
+    EXPECT_THAT(summary, testing::HasSubstr("340 rows are a billion leaves"));
+    const std::uint64_t with_leaves = primitives("forest", {{"rows", 3}});
+    const std::uint64_t bare = primitives("forest", {{"rows", 3}, {"leaves", 0}});
+    const std::uint64_t with_one = primitives("forest", {{"rows", 3}, {"leaves", 1}});
+    const std::uint64_t standard_leaves = 12;
+    EXPECT_EQ(with_leaves - bare, standard_leaves * (with_one - bare));
+    // 9 trees of 3^6 twigs; so many triangles has a leaf.
+    const std::uint64_t triangles = (with_one - bare) / (9 * 729);
+    const std::uint64_t of_a_tree = (with_leaves - bare) / 9 / triangles;
+    EXPECT_NEAR(static_cast<double>(340 * 340 * of_a_tree), 1e9, 0.02e9);
+}
+
 TEST(Generators, GrowAFicusThatIsOlderOnTopOfTheYoungerOne) {
     const auto leaves = [](double age) {
         const Scene scene = made("ficus", {{"age", age}, {"triangles", 100}});

@@ -181,10 +181,59 @@ TEST(Surface, IsRefusedWhereItTakesTooMuchOrHasNoValue) {
     const auto of_y = [](const char* y) {
         return Surface{Formula("u"), Formula(y), Formula("v"), -1, 1, -1, 1};
     };
-    EXPECT_THAT(refusal(of_y("1/u"), 0.01, 10'000), HasSubstr("near u ="));
-    EXPECT_THAT(refusal(of_y("log(u)"), 0.01, 10'000), HasSubstr("near u ="));
-    EXPECT_THAT(refusal(of_y("1/(u*u+v*v)"), 0.01, 100'000), HasSubstr("near u ="));
-    EXPECT_THAT(refusal(of_y("u + 0.1"), 1e-18, 10'000), HasSubstr("rounding"));
+    EXPECT_THAT(
+        refusal(of_y("1/u"), 0.01, 10'000), HasSubstr("y has no finite value at u = 0, v = -"));
+    EXPECT_THAT(refusal(of_y("log(u)"), 0.01, 10'000), HasSubstr("y has no finite value at u = "));
+    EXPECT_THAT(
+        refusal(of_y("1/(u*u+v*v)"), 0.01, 100'000),
+        HasSubstr("y has no finite value at u = 0, v = 0"));
+    EXPECT_THAT(refusal(of_y("1/(3*u-1)"), 0.01, 10'000), HasSubstr("near u = 0.33"));
+    EXPECT_THAT(
+        refusal(of_y("log(-1)"), 0.01, 10'000),
+        HasSubstr("y has a finite value nowhere in the ranges of u and v"));
+    EXPECT_THAT(
+        refusal(of_y("sqrt(u-2)"), 0.01, 10'000), HasSubstr("y has a finite value nowhere"));
+    EXPECT_THAT(refusal(of_y("1/0"), 0.01, 10'000), HasSubstr("y has a finite value nowhere"));
+    // Squares of what is large overflow, which is no reason.
+    EXPECT_THAT(refusal(of_y("exp(400*u)"), 0.01, 10'000), HasSubstr("triangles, and 10000 are"));
+}
+
+std::string advice(const Surface& surface, double deviation, std::size_t most = 1000) {
+    try {
+        tessellated(surface, {.allowed = deviation_of(deviation), .most_triangles = most});
+    } catch (const SurfaceError& error) {
+        return std::string(error.what()) + "; " + error.remedy;
+    }
+    return "";
+}
+
+TEST(Surface, IsRefusedWhereItsNumbersDoNotSuitIt) {
+    using testing::HasSubstr;
+    const auto of = [](const char* x, const char* y, const char* z) {
+        return Surface{Formula(x), Formula(y), Formula(z), 0, 1, 0, 1};
+    };
+    EXPECT_THAT(
+        advice(of("u+1", "v", "u"), 1e-18),
+        HasSubstr("numbers near 1.2 are rounded too coarsely for a deviation of 1e-18"));
+    const Surface far = of("u+1e9", "v", "u*v");
+    EXPECT_THAT(
+        advice(far, 0.001),
+        HasSubstr("numbers near 1e+09 are rounded too coarsely for a deviation of 0.001; leave out "
+                  "what only moves the surface (TR in a scene moves it), or allow a deviation of "
+                  "about 1"));
+    EXPECT_EQ(advice(far, 1.5), ""); // the advice is good
+    EXPECT_THAT(
+        advice(of("1e80*u", "v", "u"), 1e77), HasSubstr("goes farther than 1e+67 from the origin"));
+    EXPECT_THAT(
+        advice(of("1e-200*u", "1e-200*v", "0"), 1e-203), HasSubstr("1.4e-200 across, too small"));
+    EXPECT_THAT(advice(of("u", "u", "u"), 0.001), HasSubstr("has no area: all of it is one line"));
+    EXPECT_THAT(advice(of("u+v", "0.1*(u+v)", "0"), 0.001), HasSubstr("one line"));
+    EXPECT_THAT(advice(of("1", "2", "3"), 0.001), HasSubstr("one point"));
+    EXPECT_THAT(
+        advice(of("u", "sin(9*u)", "v"), 1e-9),
+        testing::EndsWith("triangles, and 1000 are allowed; allow a larger deviation"));
+    // Narrow, but a surface.
+    EXPECT_EQ(advice(of("u", "1e-9*v", "0"), 0.001), "");
 }
 
 TEST(Surface, IsTheSameForAnyNumberOfThreads) {

@@ -13,14 +13,18 @@
 namespace vera::reference {
 namespace {
 
-/// The reference asks every ray of every primitive: of scenes with very many, a smaller picture.
+/// The reference asks every ray of every primitive: of scenes with very many, or with glass and
+/// mirrors that send rays on and on, a smaller picture.
 std::uint32_t affordable_width(const std::string& file) {
     constexpr std::uint32_t usual = 128;
     constexpr double usual_primitives = 1500;
-    const auto primitives =
-        static_cast<double>(example(file, usual).scene.geometry.primitive_count);
-    const double part = std::min(1.0, std::sqrt(usual_primitives / primitives));
-    return static_cast<std::uint32_t>(usual * part);
+    constexpr double usual_depth = 3;
+    const auto [scene, settings] = example(file, usual);
+    const double by_primitives =
+        std::sqrt(usual_primitives / static_cast<double>(scene.geometry.primitive_count));
+    const double by_depth = usual_depth / settings.depth;
+    return static_cast<std::uint32_t>(
+        usual * std::min(1.0, by_primitives) * std::min(1.0, by_depth));
 }
 
 class Agreement : public testing::TestWithParam<std::string> {};

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/accel/brute_force.h"
 #include "vera/accel/grid_tree.h"
+#include "vera/base/available_memory.h"
 #include "vera/render/render_scene.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "base/memory_is_watched.h"
@@ -170,6 +173,51 @@ TEST(RenderScene, NeedsLittleMemoryBesideThePicture) {
         // What is kept of each pixel would show: there are a million.
         const std::size_t picture = std::size_t{4} << 20;
         EXPECT_LT(peak_memory() - before, picture + (std::size_t{40} << 20));
+    }
+}
+
+TEST(RenderScene, GivesTheSameBitsForGenerationsOfAnySize) {
+    const Room room;
+    const auto index = make_brute_force(room.scene);
+    for (const PictureSettings& settings : settings_with_and_without_antialiasing()) {
+        const auto expected = bytes(room.rendered(settings));
+        for (const std::size_t size : {std::size_t{1}, std::size_t{37}, whole_generations})
+            EXPECT_EQ(
+                bytes(render_scene(
+                    room.scene,
+                    *room.scene.camera,
+                    *index,
+                    settings,
+                    SampleType::integer8,
+                    {},
+                    nullptr,
+                    size)),
+                expected)
+                << size;
+    }
+}
+
+TEST(RenderScene, RefusesWholeGenerationsBeforeMemoryRunsOut) {
+    const Room room;
+    const auto index = make_brute_force(room.scene);
+    PictureSettings settings = Room::settings();
+    settings.width = settings.height = 2000;
+    const MemoryLimit little(1);
+    try {
+        render_scene(
+            room.scene,
+            *room.scene.camera,
+            *index,
+            settings,
+            SampleType::integer8,
+            {},
+            nullptr,
+            whole_generations);
+        FAIL();
+    } catch (const std::runtime_error& error) {
+        EXPECT_EQ(
+            std::string(error.what()).find("a generation of 4000000 view rays takes about "), 0U)
+            << error.what();
     }
 }
 

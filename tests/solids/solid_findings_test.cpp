@@ -42,6 +42,24 @@ TEST(SolidFindings, AreNoneInAGoodCube) {
     EXPECT_THAT(found_in(material + "SCENE a" + cube + "LI 1 1 1 1 1 1 1 SSC a"), IsEmpty());
 }
 
+TEST(SolidFindings, NameSpheresThatPassThroughSomething) {
+    // Line 8: through two faces and an edge; 9 rests on one; 10 touches 9, and 11 cuts it; 12 is
+    // within the cube.
+    EXPECT_THAT(
+        found_in(
+            material + cube
+            + "SP 1 1 0.5  0.2\nSP 0.5 1.5 0.5  0.5\nSP 0.5 2.25 0.5  0.25\nSP 0.5 2 0.5  0.3\n"
+              "SP 0.5 0.5 0.5  0.25\n"),
+        ElementsAre(
+            "note 8: this sphere passes through the face or mesh of line 5 and 1 more",
+            "note 11: this sphere passes through that of line 9 and 1 more"));
+    EXPECT_THAT(
+        found_in(material + "\nSP 0 0 0 1\nP3 0 0 0  9 0 0  0 9 0\n"),
+        ElementsAre("note 3: this face or mesh passes through the sphere of line 2"));
+    EXPECT_THAT(found_in(material + "\nSP 0 0 0 1 SP 1 0 0 1\n"), IsEmpty());
+    EXPECT_THAT(found_in("CM m MA m DRF 1 1 1\nMK shells turns 1\n"), IsEmpty());
+}
+
 TEST(SolidFindings, NameTheEdgesOfAHole) {
     const std::string lid = "\nP4 0 1 0  0 1 1  1 1 1  1 1 0";
     std::string open = cube;

@@ -3,12 +3,10 @@
 #include "vera/theory/conjugation_tree.h"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
-#include "theory/growth.h"
 #include "theory/plane_points.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -66,14 +64,6 @@ std::size_t height(const ConjugationTree& tree, std::uint32_t node = 0) {
                             : 1 + std::max(height(tree, node + 1), height(tree, parent.children));
 }
 
-PlaneStrip
-half_plane_near(const PlanePoints& points, PlaneDirection normal, std::mt19937_64& random) {
-    PlaneStrip strip = testing::strip_near(points, normal, random);
-    if (strip.highest != PlaneStrip().highest)
-        strip.lowest = PlaneStrip().lowest;
-    return strip;
-}
-
 TEST(ConjugationTree, FindsWhatLookingAtEachPointFinds) {
     std::mt19937_64 random(1988);
     std::size_t some = 0;
@@ -125,46 +115,6 @@ TEST(ConjugationTree, LooksAtNoMoreNodesThanTheBoundSays) {
                 ASSERT_LE(counts.points, counts.nodes);
             }
         }
-}
-
-/// The most nodes that a query of some looks at.
-double nodes_of_queries(const PlanePoints& points, std::mt19937_64& random) {
-    const ConjugationTree tree(points, 1);
-    std::uint64_t most = 0;
-    for (int query = 0; query < 300; ++query) {
-        QueryCounts counts;
-        tree.count(half_plane_near(points, testing::some_normal(points, random), random), &counts);
-        most = std::max(most, counts.nodes);
-    }
-    return static_cast<double>(most);
-}
-
-TEST(ConjugationTree, LooksAtNodesThatGrowNoFasterThanThePaperSays) {
-    constexpr double bound = 0.695;
-    std::mt19937_64 random(5);
-    for (const testing::PointFamily& family : testing::point_families()) {
-        std::vector<double> sizes;
-        std::vector<double> counts;
-        for (std::size_t count = 128; count <= 8192; count *= 2) {
-            sizes.push_back(static_cast<double>(count));
-            counts.push_back(nodes_of_queries(family.points(count, random), random));
-        }
-        const testing::Growth found = testing::growth(sizes, counts);
-        EXPECT_LT(found.exponent - found.uncertainty, bound) << family.name;
-        EXPECT_LT(found.uncertainty, 0.15) << family.name << " tells nothing";
-        RecordProperty(std::string(family.name), std::to_string(found.exponent));
-    }
-}
-
-TEST(Growth, IsThatOfAPowerAndTellsOneAboveTheBound) {
-    const std::vector<double> sizes = {128, 256, 512, 1024, 2048, 4096};
-    std::vector<double> counts;
-    for (const double size : sizes)
-        counts.push_back(3 * std::pow(size, 0.75) * (counts.size() % 2 == 0 ? 1.01 : 1));
-    const testing::Growth found = testing::growth(sizes, counts);
-    EXPECT_NEAR(found.exponent, 0.75, 0.01);
-    EXPECT_GT(found.exponent - found.uncertainty, 0.695);
-    EXPECT_GT(found.uncertainty, 0);
 }
 
 TEST(ConjugationTree, TakesNoMoreMemoryThanForecast) {

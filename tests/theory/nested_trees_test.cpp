@@ -97,6 +97,19 @@ TEST(NestedTrees, AnswerAmongManyRectangles) {
     EXPECT_GT(answers.missed, 100);
 }
 
+TEST(NestedTrees, AnswerTheSameInEitherOrderOfTheirConditions) {
+    Random random(11);
+    for (int round = 0; round < 50; ++round) {
+        const Rectangles rectangles = rectangles_within(60, 6, 5, random);
+        const NestedTrees trees(
+            rectangles, 2, {}, nullptr, TreeKind::conjugation, ConditionOrder::y_first);
+        for (int i = 0; i < 100; ++i) {
+            const WholeRay ray = ray_within(7, 2, random);
+            ASSERT_EQ(trees.first_rectangle(ray), brute_force_first_rectangle(rectangles, ray));
+        }
+    }
+}
+
 TEST(NestedTrees, GiveTheSmallestNumberOfThoseInOnePlane) {
     const IsoRectangle square = {5, 0, 10, 0, 10};
     const Rectangles rectangles = {{9, 0, 10, 0, 10}, square, square, square};

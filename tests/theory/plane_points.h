@@ -1,49 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// Points of the plane that are hard on trees: few values, lines, circles, and the largest numbers.
+// Tests are given the points that curves are counted of.
 #pragma once
 
-#include "vera/theory/plane_strip.h"
-
-#include <cstddef>
-#include <random>
-#include <vector>
+#include "vera/theory/plane_points.h"
 
 namespace vera::testing {
 
-using PlanePoints = std::vector<PlanePoint>;
-
-/// A way to make so many points.
-struct PointFamily {
-    const char* name;
-    PlanePoints (*points)(std::size_t count, std::mt19937_64& random);
-};
-
-/// All over a square.
-PlanePoints scattered_points(std::size_t count, std::mt19937_64& random);
-/// In convex position.
-PlanePoints circle_points(std::size_t count, std::mt19937_64& random);
-/// Along a diagonal, so thin that cuts along the axes would do nothing for long.
-PlanePoints thin_diagonal_points(std::size_t count, std::mt19937_64& random);
-/// In a square lattice: very many on common lines.
-PlanePoints lattice_points(std::size_t count, std::mt19937_64& random);
-/// On few lines across x, as boxes with few values of z are.
-PlanePoints column_points(std::size_t count, std::mt19937_64& random);
-/// On one line, some of them several times.
-PlanePoints collinear_points(std::size_t count, std::mt19937_64& random);
-/// Of very few values: most of them many times.
-PlanePoints repeated_points(std::size_t count, std::mt19937_64& random);
-/// Ever closer to one another.
-PlanePoints crowded_points(std::size_t count, std::mt19937_64& random);
-/// At the largest coordinates, and at 0.
-PlanePoints extreme_points(std::size_t count, std::mt19937_64& random);
-
-/// All of these.
-const std::vector<PointFamily>& point_families();
-
-/// A half-plane or a strip with borders through points, or beside them by one.
-PlaneStrip strip_near(const PlanePoints& points, PlaneDirection normal, std::mt19937_64& random);
-
-/// A normal of few values, or across the way between two points, or any one.
-PlaneDirection some_normal(const PlanePoints& points, std::mt19937_64& random);
+using vera::circle_points;
+using vera::collinear_points;
+using vera::column_points;
+using vera::crowded_points;
+using vera::extreme_points;
+using vera::lattice_points;
+using vera::PlanePoints;
+using vera::point_families;
+using vera::PointFamily;
+using vera::repeated_points;
+using vera::scattered_points;
+using vera::some_normal;
+using vera::strip_near;
+using vera::thin_diagonal_points;
 
 } // namespace vera::testing

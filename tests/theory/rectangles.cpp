@@ -34,6 +34,39 @@ Rectangles repeated_rectangles(std::size_t count, std::mt19937_64& random) {
     return made;
 }
 
+Rectangles rectangles_along_a_diagonal(std::size_t count, std::mt19937_64& random) {
+    Rectangles made;
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto z = static_cast<std::int32_t>(1000 * i);
+        const auto gap = static_cast<std::int32_t>(10 + random() % 41);
+        constexpr std::int32_t width = 800;
+        const std::uint64_t side = random() % 4;
+        IsoRectangle rectangle = {z, z - width / 2, z + width / 2, z - width / 2, z + width / 2};
+        std::int32_t& lower = side < 2 ? rectangle.lower_x : rectangle.lower_y;
+        std::int32_t& upper = side < 2 ? rectangle.upper_x : rectangle.upper_y;
+        lower = side % 2 == 0 ? z + gap : z - gap - width;
+        upper = lower + width;
+        made.push_back(rectangle);
+    }
+    return made;
+}
+
+WholeRay ray_along_the_diagonal(std::mt19937_64& random) {
+    const std::int32_t x = any_within(9, random);
+    return {{x, any_within(9, random), 0}, {1, 1, 1}};
+}
+
+Rectangles crowd_of_rectangles(std::size_t count, std::mt19937_64& random) {
+    Rectangles made = rectangles_within(count - 1, 1000, 2, random);
+    constexpr std::int32_t far = 200'000;
+    made.push_back({far, far, far, far, far});
+    return made;
+}
+
+WholeRay ray_in_the_crowd(std::mt19937_64& random) {
+    return ray_within(1000, 1000, random);
+}
+
 WholeRay ray_within(std::int32_t reach, std::int32_t slope, std::mt19937_64& random) {
     WholeRay ray;
     for (std::int32_t& value : ray.origin)
@@ -90,6 +123,11 @@ repeated_rays(std::size_t count, std::int32_t reach, std::int32_t slope, std::mt
     for (SlopedRay& ray : made)
         ray = few[random() % few.size()];
     return made;
+}
+
+SlopedRays nearly_parallel_rays(
+    std::size_t count, std::int32_t reach, std::int32_t slope, std::mt19937_64& random) {
+    return sloped_rays_within(count, reach, slope / 20, random);
 }
 
 const std::vector<RayFamily>& ray_families() {

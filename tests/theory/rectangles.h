@@ -25,6 +25,20 @@ Rectangles rectangles_within(
 /// Many copies of three.
 Rectangles repeated_rectangles(std::size_t count, std::mt19937_64& random);
 
+/// So many beside the line x = y = z, one a step of 1000, all within 50 of it and none nearer than
+/// 10, on any of its four sides: a box around two of them contains a part of the line.
+Rectangles rectangles_along_a_diagonal(std::size_t count, std::mt19937_64& random);
+
+/// A ray parallel to that line, which is nearer to it than any of the rectangles.
+WholeRay ray_along_the_diagonal(std::mt19937_64& random);
+
+/// So many in a crowd within 1000, each a millionth of the crowd's faces, and one so far away that
+/// a grid over all has them in one cell.
+Rectangles crowd_of_rectangles(std::size_t count, std::mt19937_64& random);
+
+/// A ray of any direction from within the crowd.
+WholeRay ray_in_the_crowd(std::mt19937_64& random);
+
 /// Origin within the reach, components of the direction within the slope; its z is not 0.
 WholeRay ray_within(std::int32_t reach, std::int32_t slope, std::mt19937_64& random);
 
@@ -44,6 +58,10 @@ raster_of_rays(std::size_t count, std::int32_t reach, std::int32_t slope, std::m
 /// Many copies of three.
 SlopedRays
 repeated_rays(std::size_t count, std::int32_t reach, std::int32_t slope, std::mt19937_64& random);
+
+/// Of nearly one direction: slopes of a 20th of the slope.
+SlopedRays nearly_parallel_rays(
+    std::size_t count, std::int32_t reach, std::int32_t slope, std::mt19937_64& random);
 
 /// A way to make so many rays.
 struct RayFamily {

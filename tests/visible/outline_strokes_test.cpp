@@ -402,5 +402,41 @@ TEST(OutlineStrokes, DrawBladesAndFlatAnglesByTheAngleThatIsSeen) {
     }
 }
 
+// A strip that bends by 15 degrees at each side, as triangles of a mesh and as patches of a text.
+TEST(OutlineStrokes, DrawPatchesWithTheSameNormalsAsOneSurface) {
+    constexpr std::uint32_t sides = 6;
+    Mesh mesh;
+    for (std::uint32_t i = 0; i <= sides; ++i) {
+        const double angle = 0.26 * (static_cast<double>(i) - sides / 2.0);
+        for (const double y : {-1.0, 1.0}) {
+            mesh.positions.push_back({2 * std::sin(angle), y, 2 * std::cos(angle) - 2});
+            mesh.normals.push_back({std::sin(angle), 0, std::cos(angle)});
+        }
+    }
+    for (std::uint32_t i = 0; i < sides; ++i)
+        for (const std::uint32_t corner : {0U, 2U, 1U, 1U, 2U, 3U})
+            mesh.position_indices.push_back(2 * i + corner);
+    const auto as_patches = [&](double lean) {
+        Scene scene;
+        for (std::size_t i = 0; i < mesh.position_indices.size(); i += 3) {
+            Patch patch;
+            for (std::size_t c = 0; c < 3; ++c) {
+                patch.corners[c] = mesh.positions[mesh.position_indices[i + c]];
+                patch.normals[c] = mesh.normals[mesh.position_indices[i + c]];
+                // From one patch to the next it is another one.
+                patch.normals[c].y += lean * static_cast<double>(i);
+            }
+            add(scene.geometry, patch);
+        }
+        return counts(lines_of(scene, camera_from_the_front()));
+    };
+    Scene scene;
+    add(scene.geometry, mesh);
+    const auto of_mesh = counts(lines_of(scene, camera_from_the_front()));
+    EXPECT_EQ(of_mesh, (std::map<LineClass, int>{{LineClass::silhouette, 1}}));
+    EXPECT_EQ(as_patches(0), of_mesh);
+    EXPECT_GT(as_patches(0.001).at(LineClass::crease), 0);
+}
+
 } // namespace
 } // namespace vera

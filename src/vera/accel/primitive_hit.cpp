@@ -39,11 +39,17 @@ LocalPrimitive local_primitive(const Scene& scene, const Ray& ray, std::uint64_t
 } // namespace
 
 Hit primitive_hit(const Scene& scene, const Ray& ray, std::uint64_t primitive) {
+    return primitive_hit(scene, QueryRay{ray, {}}, primitive);
+}
+
+Hit primitive_hit(const Scene& scene, const QueryRay& query, std::uint64_t primitive) {
+    const Ray& ray = query.ray;
+    const std::uint32_t start = query.start.primitive == primitive ? query.start.piece : no_piece;
     const LocalPrimitive local = local_primitive(scene, ray, primitive);
     const PreparedRay prepared(local.ray);
     const auto search_all = [&](auto& search) {
         for_each_crossing(
-            *local.geometry, local.element, prepared, no_piece, [&](double t, std::uint32_t piece) {
+            *local.geometry, local.element, prepared, start, [&](double t, std::uint32_t piece) {
                 search.add(t, FaceId{primitive, piece});
             });
     };

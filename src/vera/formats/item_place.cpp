@@ -2,6 +2,7 @@
 #include "vera/formats/item_place.h"
 
 #include <algorithm>
+#include <vector>
 
 namespace vera {
 
@@ -17,6 +18,28 @@ std::size_t line_offset(std::string_view text, std::uint64_t line) {
         offset = end + 1;
     }
     return offset;
+}
+
+/// The words of the item's line.
+std::vector<WordPlace> words_of_line(const Item& item, const SourceText& text) {
+    const std::size_t begin = line_offset(text.text(), item.line);
+    std::string_view line = text.text().substr(begin);
+    line = line.substr(0, line.find('\n'));
+    std::vector<WordPlace> words;
+    for (std::size_t at = 0; at < line.size();) {
+        const std::size_t first = std::min(line.find_first_not_of(" \t\r", at), line.size());
+        const std::size_t last = std::min(line.find_first_of(" \t\r", first), line.size());
+        if (first < last)
+            words.push_back({&text, begin + first, begin, item.line, last - first});
+        at = last;
+    }
+    if (words.empty())
+        words.push_back({&text, begin, begin, item.line, 1});
+    return words;
+}
+
+bool is_able(const WordPlace& word, const Item& item) {
+    return makes(statement_named(word.text->text().substr(word.offset, word.length)), item.kind);
 }
 
 } // namespace
@@ -43,25 +66,31 @@ bool makes(std::optional<Statement> statement, ItemKind kind) {
 }
 
 WordPlace item_place(const Item& item, const SourceText& text) {
-    const std::size_t begin = line_offset(text.text(), item.line);
-    std::string_view line = text.text().substr(begin);
-    line = line.substr(0, line.find('\n'));
-    WordPlace place = {&text, begin, begin, item.line, 1};
-    bool any_word = false;
-    for (std::size_t at = 0; at < line.size();) {
-        const std::size_t first = std::min(line.find_first_not_of(" \t\r", at), line.size());
-        const std::size_t last = std::min(line.find_first_of(" \t\r", first), line.size());
-        const bool makes_item = makes(statement_named(line.substr(first, last - first)), item.kind);
-        if (first < last && (makes_item || !any_word)) {
-            place.offset = begin + first;
-            place.length = last - first;
-            any_word = true;
-        }
-        if (makes_item)
-            break;
-        at = last;
+    const std::vector<WordPlace> words = words_of_line(item, text);
+    const auto able =
+        std::ranges::find_if(words, [&](const WordPlace& word) { return is_able(word, item); });
+    return able == words.end() ? words.front() : *able;
+}
+
+WordPlace item_place(const Geometry& geometry, std::uint32_t number, const SourceText& text) {
+    const Item& item = geometry.items[number];
+    std::vector<WordPlace> able = words_of_line(item, text);
+    std::erase_if(able, [&](const WordPlace& word) { return !is_able(word, item); });
+    std::size_t before = 0;
+    std::size_t all = 0;
+    const auto is_beside = [&](std::size_t i) {
+        return geometry.items[i].file == item.file && geometry.items[i].line == item.line;
+    };
+    std::size_t first = number;
+    while (first > 0 && is_beside(first - 1))
+        --first;
+    for (std::size_t i = first; i < geometry.items.size() && is_beside(i); ++i) {
+        const bool is_alike = geometry.items[i].kind == item.kind;
+        before += is_alike && i < number ? 1 : 0;
+        all += is_alike ? 1 : 0;
     }
-    return place;
+    // Words in comments look like statements too.
+    return able.size() == all ? able[before] : item_place(item, text);
 }
 
 } // namespace vera

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <memory>
 
 #include <fmt/format.h>
@@ -50,10 +51,31 @@ void complain_of_generator(WordReader& words, std::string_view name) {
         fmt::format("there are {}", listed(known)));
 }
 
+/// Where the parameters of a statement stand.
+using GivenParameters = std::map<std::string_view, WordPlace>;
+
+/// Whether the word that was taken last is there for the first time; complains where it is not.
+bool is_first(WordReader& words, std::string_view word, GivenParameters& given) {
+    const auto [entry, first] = given.try_emplace(word, words.last_place());
+    if (!first) {
+        const SourcePlace place = source_place(entry->second);
+        words.complaints().error(
+            words.last_place(),
+            fmt::format("{} is given twice", word),
+            fmt::format(
+                "the first is at {}:{}:{}; keep one of them",
+                place.file,
+                place.line,
+                place.column));
+    }
+    return first;
+}
+
 std::optional<MadePart> read_numbers(WordReader& words, const Generator& generator) {
     MadePart part = {
         std::string(generator.name), std::string(generator.name), words.last_place(), {}};
     ParameterValues values(generator);
+    GivenParameters given;
     while (is_parameter_like(words.peek())) {
         const std::string_view word = words.peek();
         const auto parameter = std::find_if(
@@ -65,6 +87,8 @@ std::optional<MadePart> read_numbers(WordReader& words, const Generator& generat
             return std::nullopt;
         }
         words.take();
+        if (!is_first(words, parameter->name, given))
+            return std::nullopt;
         const WordPlace place = words.place();
         const auto value = words.take_number(fmt::format("the {}", parameter->name).c_str());
         if (!value)
@@ -147,6 +171,8 @@ private:
             return false;
         }
         words_.take();
+        if (word != "let" && !is_first(words_, word, given_))
+            return false;
         part_.key += fmt::format(" {}", word);
         if (word == "u")
             return take_range(u_);
@@ -226,6 +252,7 @@ private:
     WordReader& words_;
     MadePart part_;
     FormulaNames names_;
+    GivenParameters given_;
     Range u_ = {0, 1};
     Range v_ = {0, 1};
     std::optional<double> deviation_;

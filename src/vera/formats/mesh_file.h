@@ -5,6 +5,7 @@
 #include "vera/formats/source_text.h"
 #include "vera/scene/primitives.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <vector>
 
@@ -18,6 +19,9 @@ Mesh read_mesh(const std::filesystem::path& path, std::vector<Diagnostic>& warni
 
 /// Wavefront OBJ: v, vn and f with their continuation lines; everything else is passed over.
 Mesh read_obj(const SourceText& source, std::vector<Diagnostic>& warnings);
+
+/// Of each triangle that read_obj makes of a text without errors, the line of its face, from 1.
+std::vector<std::uint32_t> obj_triangle_lines(const SourceText& source);
 
 /// PLY, ascii or binary of either byte order: the elements vertex (x y z, nx ny nz) and face
 /// (vertex_indices), in any order, among any others.

@@ -35,22 +35,40 @@ public:
 
     Mesh read(std::vector<Diagnostic>& warnings) {
         reserve();
-        while (!cursor_.at_end() && !report_.full()) {
-            cursor_.skip_blanks();
-            // Not even a backslash at its end continues a comment: "# from C:\\models\\".
-            if (cursor_.peek() == '#') {
-                cursor_.skip_comment();
-                continue;
-            }
-            read_statement();
-            cursor_.skip_line();
-            spent_.up_to(cursor_.offset());
-        }
+        while (!at_end())
+            read_line();
         warn();
         return builder_.finish(warnings);
     }
 
+    std::vector<std::uint32_t> triangle_lines() {
+        std::vector<std::uint32_t> lines;
+        const std::string_view text = report_.source().text();
+        std::uint32_t line = 1;
+        while (!at_end()) {
+            const std::size_t start = cursor_.offset();
+            read_line();
+            lines.resize(builder_.mesh().triangle_count(), line);
+            const std::string_view read = text.substr(start, cursor_.offset() - start);
+            line += static_cast<std::uint32_t>(std::ranges::count(read, '\n'));
+        }
+        return lines;
+    }
+
 private:
+    bool at_end() const { return cursor_.at_end() || report_.full(); }
+
+    /// A statement with what continues it, or a comment.
+    void read_line() {
+        cursor_.skip_blanks();
+        // Not even a backslash at its end continues a comment: "# from C:\\models\\".
+        if (cursor_.peek() == '#')
+            return cursor_.skip_comment();
+        read_statement();
+        cursor_.skip_line();
+        spent_.up_to(cursor_.offset());
+    }
+
     /// Counts the vertices and faces beforehand: that takes a small part of the time that reading
     /// them takes, and nothing has to be copied while the mesh grows.
     void reserve() {
@@ -235,6 +253,10 @@ private:
 
 Mesh read_obj(const SourceText& source, std::vector<Diagnostic>& warnings) {
     return ObjReader(source).read(warnings);
+}
+
+std::vector<std::uint32_t> obj_triangle_lines(const SourceText& source) {
+    return ObjReader(source).triangle_lines();
 }
 
 } // namespace vera

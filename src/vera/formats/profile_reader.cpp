@@ -24,7 +24,8 @@ std::optional<double> take_number_within(
 }
 
 std::optional<HorizonProfile> read_mountains(WordReader& words) {
-    constexpr std::uint64_t largest_seed = std::uint64_t{1} << 53U;
+    // Larger ones are not all told apart: a number is read as a double.
+    constexpr std::uint64_t largest_seed = (std::uint64_t{1} << 53U) - 1;
     const auto seed = words.take_whole_number("the seed of MOUNTAINS", 0, largest_seed);
     if (!seed)
         return std::nullopt;

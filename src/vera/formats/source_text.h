@@ -10,10 +10,6 @@
 
 namespace vera {
 
-/// How many bytes the UTF-8 character at the beginning of the text has, which must not be empty; 0
-/// when there is none.
-std::size_t character_length(std::string_view text);
-
 /// The bytes of an input file, and what a diagnostic needs to point into them. A regular file is
 /// mapped, not copied; "-" is standard input. Keeps no table of lines: places are worked out when
 /// they are asked for, which errors alone do.

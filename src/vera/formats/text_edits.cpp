@@ -88,10 +88,25 @@ std::vector<Change> changes_of(
             {first,
              last,
              edited(text.substr(begins[first], begins[last] - begins[first]), within)});
-        if (change.first < change.last || !change.text.empty())
+        if (change.first == change.last && change.text.empty())
+            continue;
+        // Lines that follow one another go together, and then those in their place.
+        const bool follows = !changes.empty() && changes.back().last == change.first
+            && (changes.back().text.empty() || changes.back().text.ends_with('\n'));
+        if (follows) {
+            changes.back().last = change.last;
+            changes.back().text += change.text;
+        } else {
             changes.push_back(std::move(change));
+        }
     }
     return changes;
+}
+
+/// "4,7": so many lines from line 4 on; of one line its number alone, of none the line before.
+std::string range_text(std::size_t first, std::size_t count) {
+    const std::size_t number = count == 0 ? first : first + 1;
+    return count == 1 ? fmt::format("{}", number) : fmt::format("{},{}", number, count);
 }
 
 void add_line(std::string& diff, char mark, std::string_view line) {
@@ -164,11 +179,9 @@ std::string unified_diff(
         } while (i < changes.size() && changes[i].first <= at + 2 * context);
         add_context(std::min(at + context, lines.size()));
         diff += fmt::format(
-            "@@ -{},{} +{},{} @@\n{}",
-            at == first ? first : first + 1,
-            at - first,
-            first + shift_added - shift_removed + (new_lines == 0 ? 0 : 1),
-            new_lines,
+            "@@ -{} +{} @@\n{}",
+            range_text(first, at - first),
+            range_text(first + shift_added - shift_removed, new_lines),
             body);
     }
     return diff;

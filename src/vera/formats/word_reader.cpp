@@ -2,6 +2,7 @@
 #include "vera/formats/word_reader.h"
 
 #include "vera/base/similar_words.h"
+#include "vera/base/utf8.h"
 #include "vera/formats/number.h"
 
 #include <algorithm>

@@ -2,6 +2,7 @@
 #include "vera/generate/formula.h"
 
 #include "vera/base/similar_words.h"
+#include "vera/base/utf8.h"
 
 #include <algorithm>
 #include <array>
@@ -103,11 +104,14 @@ private:
         if (at_ == text_.size())
             fail(at_, 1, fmt::format("expected {}, found the end", expected), std::move(remedy));
         const std::size_t name = name_length(text_.substr(at_));
-        const std::size_t length = std::max<std::size_t>(name, 1);
+        const std::size_t character = character_length(text_.substr(at_));
+        const std::size_t length = std::max({name, character, std::size_t{1}});
         fail(
             at_,
             length,
-            fmt::format("expected {}, found '{}'", expected, text_.substr(at_, length)),
+            character == 0
+                ? fmt::format("expected {}, found a byte that is not UTF-8", expected)
+                : fmt::format("expected {}, found '{}'", expected, text_.substr(at_, length)),
             std::move(remedy));
     }
 

@@ -39,7 +39,7 @@ const std::array all = {
         {.azimuth_degrees = 25, .elevation_degrees = 10, .margin = 0.06}},
     Generator{
         "forest",
-        "trees in rows; a thousand rows are a billion leaves",
+        "trees in rows; 340 rows are a billion leaves",
         forest_parameters,
         make_forest,
         {.ground = Ground::meadow, .azimuth_degrees = 25, .elevation_degrees = 9, .margin = 0.02}},

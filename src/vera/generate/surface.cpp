@@ -4,6 +4,7 @@
 #include "vera/generate/surface_mesh.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -12,6 +13,7 @@ namespace vera {
 
 namespace {
 
+using detail::halves;
 using detail::ParameterCell;
 using detail::ParameterGrid;
 
@@ -28,9 +30,11 @@ Vec3 magnitudes(const std::array<Jet<Interval>, 3>& place, Interval Jet<Interval
     return {magnitude(place[0].*member), magnitude(place[1].*member), magnitude(place[2].*member)};
 }
 
-/// length(), but infinite or not a number where any component is.
+/// length(), but infinite or not a number where any component is, and there alone.
 double size_of(Vec3 a) {
-    return std::sqrt(a.x * a.x + a.y * a.y + a.z * a.z);
+    const double size = std::sqrt(a.x * a.x + a.y * a.y + a.z * a.z);
+    constexpr double small = 0x1p-600; // squares do not overflow
+    return std::isfinite(size) ? size : std::sqrt(dot(small * a, small * a)) / small;
 }
 
 /// A triangle with its corners in the cell meets the linear function through its corners. By
@@ -81,6 +85,9 @@ bound_of(const ParameterGrid& grid, const ParameterCell& cell, const AllowedDevi
         place[0].value.is_bounded() && place[1].value.is_bounded() && place[2].value.is_bounded();
     // A millionth of it is left for the rounding of this and of the corners.
     bound.allowed = bounded ? (1 - 1e-6) * allowed({lower, upper}) : 0;
+    // Also of a formula that is constant, and so has derivatives of 0.
+    if (!bounded)
+        bound.deviation = std::numeric_limits<double>::infinity();
     bound.cut_u = is_better_cut_across_u(place, a, b);
     const bool u_whole = cell.u_end - cell.u_begin == 1;
     const bool v_whole = cell.v_end - cell.v_begin == 1;
@@ -89,13 +96,94 @@ bound_of(const ParameterGrid& grid, const ParameterCell& cell, const AllowedDevi
     return bound;
 }
 
+constexpr std::array<char, 3> axis_names = {'x', 'y', 'z'};
+
+/// By a corner of the cell, or its middle, at which a formula has no value; or else as a whole.
 [[noreturn]] void refuse_place(const ParameterGrid& grid, const ParameterCell& cell) {
+    constexpr const char* remedy = "keep the place out of the ranges of u and v";
+    const ParameterCell middle = halves(halves(cell, true).second, false).second;
+    for (const auto& [u, v] :
+         {std::pair(middle.u_begin, middle.v_begin),
+          std::pair(cell.u_begin, cell.v_begin),
+          std::pair(cell.u_end, cell.v_begin),
+          std::pair(cell.u_begin, cell.v_end),
+          std::pair(cell.u_end, cell.v_end)}) {
+        const auto jets = grid.jets(grid.u(u), grid.v(v));
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            if (!std::isfinite(jets[axis].value))
+                throw SurfaceError(
+                    fmt::format(
+                        "{} has no finite value at u = {:.6g}, v = {:.6g}",
+                        axis_names[axis],
+                        grid.u(u),
+                        grid.v(v)),
+                    remedy);
+    }
     throw SurfaceError(
         fmt::format(
-            "the surface has no value, is not bounded or jumps near u = {:.6g}, v = {:.6g}",
-            grid.u(cell.u_begin),
-            grid.v(cell.v_begin)),
-        "keep the place out of the ranges of u and v");
+            "the surface has no bound, jumps or has a place without value near u = {:.6g}, "
+            "v = {:.6g}",
+            grid.u(middle.u_begin),
+            grid.v(middle.v_begin)),
+        remedy);
+}
+
+/// Calls visit(place) of places all over the ranges.
+template <typename Visitor>
+void for_each_sample(const Surface& surface, const Visitor& visit) {
+    constexpr int steps = 32;
+    for (int i = 0; i <= steps; ++i)
+        for (int j = 0; j <= steps; ++j) {
+            const double u =
+                surface.u_begin + (surface.u_end - surface.u_begin) * i / double{steps};
+            const double v =
+                surface.v_begin + (surface.v_end - surface.v_begin) * j / double{steps};
+            visit(
+                Vec3{surface.x.at(u, v).value, surface.y.at(u, v).value, surface.z.at(u, v).value});
+        }
+}
+
+/// A formula that has a value nowhere is wrong as a whole, and not at a place.
+void refuse_without_values(const Surface& surface) {
+    std::array<bool, 3> has_value = {};
+    for_each_sample(surface, [&](Vec3 place) {
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            has_value[axis] = has_value[axis] || std::isfinite(place[axis]);
+    });
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        if (!has_value[axis])
+            throw SurfaceError(
+                fmt::format(
+                    "{} has a finite value nowhere in the ranges of u and v", axis_names[axis]),
+                "there is no log of 0 or below, no root or broken power below 0, and nothing "
+                "divided by 0");
+}
+
+/// Triangles of a line or a point are slivers by rounding alone, or none.
+void refuse_without_area(const Mesh& mesh) {
+    Box3 box;
+    for (const Vec3 position : mesh.positions)
+        box = grown(box, position);
+    const double size = length(box.upper - box.lower);
+    double area = 0;
+    for (std::size_t i = 0; i < mesh.position_indices.size(); i += 3) {
+        const Vec3 corner = mesh.positions[mesh.position_indices[i]];
+        area += length(cross(
+                    mesh.positions[mesh.position_indices[i + 1]] - corner,
+                    mesh.positions[mesh.position_indices[i + 2]] - corner))
+            / 2;
+    }
+    constexpr double least_part = 1e-12; // of the square
+    if (area > least_part * size * size)
+        return;
+    constexpr double least_size = 1e-140; // its square, and parts of it, are doubles
+    if (size > 0 && size < least_size)
+        throw SurfaceError(
+            fmt::format("the surface is only {:.2g} across, too small to have an area", size),
+            "make x, y and z larger; SC shrinks what a scene calls");
+    throw SurfaceError(
+        fmt::format("the surface has no area: all of it is one {}", size > 0 ? "line" : "point"),
+        "x, y and z must change with both u and v, and not all in the same way");
 }
 
 /// How many triangles it would be in all, should the bounds shrink with the area of cells.
@@ -115,9 +203,9 @@ double forecast(std::size_t done, const std::vector<CellBound>& bounds) {
     for (std::size_t i = 0; i < open.size(); ++i)
         if (!std::isfinite(bounds[i].deviation))
             refuse_place(grid, open[i]);
-    throw SurfaceError(
+    throw TooManyTriangles(
         fmt::format("this takes about {:.2g} triangles, and {} are allowed", triangles, most),
-        "allow a larger deviation, or more triangles");
+        "allow a larger deviation");
 }
 
 /// Cells that cover the ranges, each within what is allowed.
@@ -161,6 +249,7 @@ good_cells(const ParameterGrid& grid, const TessellationSettings& settings) {
 } // namespace
 
 Mesh tessellated(const Surface& surface, const TessellationSettings& settings) {
+    refuse_without_values(surface);
     const ParameterGrid grid(surface);
     // Progress never goes back, while a forecast may.
     TessellationSettings forward = settings;
@@ -171,23 +260,17 @@ Mesh tessellated(const Surface& surface, const TessellationSettings& settings) {
             settings.progress(told);
         };
     const std::vector<ParameterCell> cells = good_cells(grid, forward);
-    return detail::mesh_of_cells(grid, cells, settings.allowed);
+    Mesh mesh = detail::mesh_of_cells(grid, cells, settings.allowed);
+    refuse_without_area(mesh);
+    return mesh;
 }
 
 Box3 sampled_bounds(const Surface& surface) {
-    constexpr int steps = 32;
     Box3 box;
-    for (int i = 0; i <= steps; ++i)
-        for (int j = 0; j <= steps; ++j) {
-            const double u =
-                surface.u_begin + (surface.u_end - surface.u_begin) * i / double{steps};
-            const double v =
-                surface.v_begin + (surface.v_end - surface.v_begin) * j / double{steps};
-            const Vec3 place = {
-                surface.x.at(u, v).value, surface.y.at(u, v).value, surface.z.at(u, v).value};
-            if (is_finite(place))
-                box = grown(box, place);
-        }
+    for_each_sample(surface, [&](Vec3 place) {
+        if (is_finite(place))
+            box = grown(box, place);
+    });
     return box;
 }
 

@@ -35,6 +35,12 @@ public:
     std::string remedy; ///< what to do
 };
 
+/// The surface takes more triangles than are allowed.
+class TooManyTriangles : public SurfaceError {
+public:
+    using SurfaceError::SurfaceError;
+};
+
 /// How far triangles may lie off a part of a surface that lies in the box; a length.
 using AllowedDeviation = std::function<double(const Box3& part)>;
 
@@ -51,8 +57,9 @@ struct TessellationSettings {
 /// as those of a torus do, are joined, so that there is no gap. Normals are those of the surface;
 /// where it has none, as at a pole, they are what it tends to.
 ///
-/// Throws SurfaceError when it takes more triangles than settings say, with an estimate of how
-/// many, and where the surface has no finite value or jumps. The same for any number of threads.
+/// Throws TooManyTriangles when it takes more than settings say, with an estimate of how many, and
+/// SurfaceError where the surface has no finite value, jumps, has no area, is too far or too small
+/// for a scene or for what is allowed. The same for any number of threads.
 Mesh tessellated(const Surface& surface, const TessellationSettings& settings);
 
 /// The box of a sample of points of the surface; empty where none is finite.

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/generate/surface_mesh.h"
 
+#include "vera/scene/scene.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
 #include <unordered_map>
+
+#include <fmt/format.h>
 
 namespace vera::detail {
 
@@ -173,10 +177,21 @@ private:
             key(stand_in), static_cast<std::uint32_t>(mesh_.positions.size()));
         if (added) {
             const Vec3 position = place_of(stand_in).position;
+            check_reach(position);
             check_rounding(stand_in, position);
             mesh_.positions.push_back(position);
         }
         return entry->second;
+    }
+
+    static void check_reach(Vec3 position) {
+        constexpr double most = largest_reach / 1000; // the rest is for what stands round it
+        if (!(max_component(abs(position)) <= most))
+            throw SurfaceError(
+                fmt::format(
+                    "the surface goes farther than {:.0e} from the origin, too far for a scene",
+                    most),
+                "make x, y and z smaller, or leave out the parts of u and v where they grow so");
     }
 
     void check_rounding(GridPoint point, Vec3 position) const {
@@ -187,8 +202,14 @@ private:
                 position[axis] - jets[axis].value.lower, jets[axis].value.upper - position[axis]);
         if (!(length(off) <= allowed_at(position)))
             throw SurfaceError(
-                "the deviation is so small that rounding the corners exceeds it",
-                "allow a larger one");
+                fmt::format(
+                    "numbers near {:.2g} are rounded too coarsely for a deviation of {:.2g}",
+                    max_component(abs(position)),
+                    allowed_({position, position})),
+                fmt::format(
+                    "leave out what only moves the surface (TR in a scene moves it), or allow a "
+                    "deviation of about {:.1g}",
+                    2 * length(off) / corner_part));
     }
 
     /// The corners of the triangles of the cell, counterclockwise from the first corner.

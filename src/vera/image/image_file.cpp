@@ -6,6 +6,7 @@
 #include "vera/base/output_file.h"
 #include "vera/image/codecs.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -55,7 +56,8 @@ std::size_t sample_count(const Image& image) {
 }
 
 /// All bytes of a file, or of standard input.
-std::vector<std::byte> bytes_of(const std::filesystem::path& path, const std::string& name) {
+std::vector<std::byte>
+bytes_of(const std::filesystem::path& path, std::size_t most, const std::string& name) {
     struct OpenFile {
         int descriptor;
         bool ours;
@@ -75,8 +77,8 @@ std::vector<std::byte> bytes_of(const std::filesystem::path& path, const std::st
 
     constexpr std::size_t step = std::size_t{1} << 16;
     std::size_t size = 0;
-    std::vector<std::byte> bytes(
-        S_ISREG(status.st_mode) ? static_cast<std::size_t>(status.st_size) + 1 : step);
+    std::vector<std::byte> bytes(std::min(
+        S_ISREG(status.st_mode) ? static_cast<std::size_t>(status.st_size) + 1 : step, most));
     while (true) {
         if (size == bytes.size())
             bytes.resize(2 * size);
@@ -88,8 +90,10 @@ std::vector<std::byte> bytes_of(const std::filesystem::path& path, const std::st
         if (count == 0)
             break;
         size += static_cast<std::size_t>(count);
+        if (size >= most)
+            break;
     }
-    bytes.resize(size);
+    bytes.resize(std::min(size, most));
     return bytes;
 }
 
@@ -197,8 +201,9 @@ Image decoded_image(std::span<const std::byte> bytes, const std::string& name) {
         name, text.empty() ? "it is empty" : "its first bytes are those of no format known here");
 }
 
-std::vector<std::byte> file_bytes(const std::filesystem::path& path) {
-    return bytes_of(path, path == "-" ? "standard input" : fmt::format("'{}'", path.string()));
+std::vector<std::byte> file_bytes(const std::filesystem::path& path, std::size_t most) {
+    return bytes_of(
+        path, most, path == "-" ? "standard input" : fmt::format("'{}'", path.string()));
 }
 
 Image read_image(const std::filesystem::path& path) {

@@ -17,7 +17,7 @@ namespace {
 using Refiners = Workspaces<TileRefiner>;
 
 /// Larger tiles trace fewer centres twice, along their borders; smaller ones share out better.
-std::size_t tile_side(const Raster& raster) {
+std::size_t usual_tile_side(const Raster& raster) {
     constexpr std::size_t large_picture = std::size_t{1} << 20;
     return raster.width * raster.height >= large_picture ? 64 : 32;
 }
@@ -75,7 +75,10 @@ RenderStatistics render_antialiased(
     ProgressMeter& done) {
     std::vector<Refinement> refined(raster.width * raster.height, Refinement::center);
     const RefinedPicture picture = {traced, raster, settings, image, refined};
-    const Tiling tiling = {raster.width, raster.height, tile_side(raster)};
+    const Tiling tiling = {
+        raster.width,
+        raster.height,
+        tile_side(usual_tile_side(raster), traced.generation_size, raster.width, raster.height)};
     Refiners refiners([&] { return std::make_unique<TileRefiner>(picture); });
 
     parallel_ranges(tiling.count(), 1, [&](std::size_t first, std::size_t last) {

@@ -46,7 +46,16 @@ TracedScene traced_scene(
         .shadows = settings.shadows,
         .luminosity = true,
         .depth = settings.depth,
-        .cancel = cancel};
+        .cancel = cancel,
+        .generation_size = usual_generation_size};
+}
+
+std::size_t GenerationTracer::bytes_per_ray() {
+    constexpr std::size_t blocks =
+        sizeof(PlaceBlock) + sizeof(LightBlock) + sizeof(RefractionBlock) + sizeof(BlockRows);
+    constexpr std::size_t of_child = sizeof(Child) + sizeof(QueryRay) + sizeof(Color);
+    return sizeof(Hit) + sizeof(Place) + blocks / block_size + of_child + sizeof(QueryRay)
+        + sizeof(Color);
 }
 
 GenerationTracer::GenerationTracer(const TracedScene& traced)
@@ -89,8 +98,9 @@ void GenerationTracer::shade(
     std::span<Color> colors,
     std::span<Color> terms) {
     Level& work = level_buffers(1);
-    for (std::size_t first = 0; first < rays.size(); first += generation_size) {
-        const std::size_t count = std::min(generation_size, rays.size() - first);
+    const std::size_t size = std::min(traced_.generation_size, rays.size());
+    for (std::size_t first = 0; first < rays.size(); first += size) {
+        const std::size_t count = std::min(size, rays.size() - first);
         const std::span<const Hit> part_hits = hits.subspan(first, count);
         const std::span<Color> part_colors = colors.subspan(first, count);
         work.term_stride = light_way_count * this->terms().count();
@@ -107,8 +117,9 @@ void GenerationTracer::shade(
 }
 
 void GenerationTracer::trace(std::span<const QueryRay> rays, std::span<Color> colors) {
-    for (std::size_t first = 0; first < rays.size(); first += generation_size) {
-        const std::size_t count = std::min(generation_size, rays.size() - first);
+    const std::size_t size = std::min(traced_.generation_size, rays.size());
+    for (std::size_t first = 0; first < rays.size(); first += size) {
+        const std::size_t count = std::min(size, rays.size() - first);
         trace_part(1, rays.subspan(first, count), colors.subspan(first, count));
     }
 }
@@ -276,8 +287,9 @@ void GenerationTracer::trace_children(std::uint32_t level, std::span<Color> colo
     next.term_stride = terms().count();
     if (work.terms != nullptr)
         work.child_terms.resize(work.children.size() * next.term_stride);
-    for (std::size_t first = 0; first < work.children.size(); first += generation_size) {
-        const std::size_t count = std::min(generation_size, work.children.size() - first);
+    const std::size_t size = std::min(traced_.generation_size, work.children.size());
+    for (std::size_t first = 0; first < work.children.size(); first += size) {
+        const std::size_t count = std::min(size, work.children.size() - first);
         next.terms =
             work.terms == nullptr ? nullptr : work.child_terms.data() + first * next.term_stride;
         trace_part(

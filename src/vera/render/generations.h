@@ -5,6 +5,7 @@
 #include "vera/base/parallel.h"
 #include "vera/math/color.h"
 #include "vera/render/buffer.h"
+#include "vera/render/generation_size.h"
 #include "vera/render/ray_terms.h"
 #include "vera/render/statistics.h"
 #include "vera/scene/light.h"
@@ -38,6 +39,7 @@ struct TracedScene {
     bool luminosity = true;  ///< SDI and SAN count
     std::uint32_t depth = 2; ///< levels of the ray tree
     const CancelFlag* cancel = nullptr;
+    std::size_t generation_size = usual_generation_size; ///< at least 1
 };
 
 TracedScene traced_scene(
@@ -52,12 +54,11 @@ TracedScene traced_scene(
 /// each thread uses a tracer of its own.
 class GenerationTracer {
 public:
-    /// The rays of a generation that are worked on at a time. A longer one is taken in parts, each
-    /// followed to its last descendant before the next, so that memory grows with the depth alone
-    /// and stays in a processor's cache. Sizes from 256 to 2048 were compared.
-    static constexpr std::size_t generation_size = 256;
-
     explicit GenerationTracer(const TracedScene& traced);
+
+    /// What a ray takes of memory in work, at each level of the ray tree that it or what it sends
+    /// on comes to.
+    static std::size_t bytes_per_ray();
 
     /// The first face that each ray meets, and where; the others' surface is left as it was.
     void nearest(std::span<const QueryRay> rays, std::span<Hit> hits);

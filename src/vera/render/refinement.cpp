@@ -273,7 +273,7 @@ void TileRefiner::refine_pending() {
     for (std::size_t next = 0; next < pending_.size();) {
         jobs_.clear();
         std::size_t ray_count = 0;
-        for (; next < pending_.size() && ray_count < GenerationTracer::generation_size; ++next) {
+        for (; next < pending_.size() && ray_count < picture_.traced.generation_size; ++next) {
             Pixel& pixel = pixels_[pending_[next]];
             const std::uint32_t wanted = std::max(samples_wanted(pixel), pixel.samples);
             if (wanted == pixel.samples && pixel.wanted == pixel.reached)

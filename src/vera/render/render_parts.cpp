@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/render/render_parts.h"
 
-#include "vera/accel/primitive_hit.h"
 #include "vera/image/develop.h"
+#include "vera/render/facet_hit.h"
 #include "vera/render/generations.h"
 #include "vera/render/raster.h"
 #include "vera/render/sample_positions.h"
 #include "vera/render/workspaces.h"
 #include "vera/shade/firmament.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <memory>
 
 namespace vera {
@@ -32,40 +29,6 @@ struct BandWork {
     std::vector<Color> row;
 };
 
-/// Where the ray meets the facet's plane.
-double facet_t(const Facets& facets, const Facets::Triangle& facet, const Ray& ray) {
-    constexpr double grazing = 0x1p-10;
-    std::array<Vec3, 3> from_origin;
-    std::array<double, 3> along;
-    for (std::size_t i = 0; i < 3; ++i) {
-        from_origin[i] = facets.corners[facet.corners[i]] - ray.origin;
-        along[i] = dot(from_origin[i], ray.direction);
-    }
-    const Vec3 normal =
-        normalized(cross(from_origin[1] - from_origin[0], from_origin[2] - from_origin[0]));
-    const double speed = dot(normal, ray.direction);
-    const double t = dot(normal, from_origin[0]) / speed;
-    if (std::abs(speed) >= grazing)
-        return std::max(t, ray.t_min);
-    // Seen almost edge-on, it is badly known on the grid: then not beyond its corners.
-    const auto [least, most] = std::minmax_element(along.begin(), along.end());
-    return std::max(speed != 0 ? std::clamp(t, *least, *most) : *least, ray.t_min);
-}
-
-/// Where a ray through the middle of a part meets what is seen there.
-Hit hit_in_part(const Scene& scene, const Facets& facets, const PixelPart& part, const Ray& ray) {
-    if (part.source == PixelPart::background)
-        return {};
-    const Facets::Triangle& facet = facets.triangles[part.source];
-    const Hit hit = primitive_hit(scene, ray, facet.primitive);
-    if (hit.found())
-        return hit;
-    // Beside a silhouette the facet sticks out by a step of the grid, and the middle of a part that
-    // is not convex lies outside of it. The facet's own place there is moved onto the surface when
-    // it is asked for its normal.
-    return {facet_t(facets, facet, ray), {facet.primitive, facet.piece}};
-}
-
 void find_hits(const Scene& scene, const Facets& facets, const Raster& raster, BandWork& work) {
     work.rays.resize(work.parts.size());
     work.hits.resize(work.parts.size());
@@ -74,7 +37,9 @@ void find_hits(const Scene& scene, const Facets& facets, const Raster& raster, B
     for (std::size_t i = 0; i < work.parts.size(); ++i) {
         const PixelPart& part = work.parts[i];
         work.rays[i] = raster.ray(part.x, part.y, {part.across, part.down});
-        work.hits[i] = hit_in_part(scene, facets, part, work.rays[i].ray);
+        work.hits[i] = part.source == PixelPart::background
+            ? Hit{}
+            : facet_hit(scene, facets, part.source, work.rays[i].ray);
     }
     work.tracer.surfaces(work.rays, work.hits, work.surfaces);
 }

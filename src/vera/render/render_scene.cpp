@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/render/render_scene.h"
 
+#include "vera/base/available_memory.h"
 #include "vera/image/develop.h"
 #include "vera/render/antialiasing.h"
 #include "vera/render/generations.h"
@@ -9,8 +10,8 @@
 #include "vera/render/workspaces.h"
 
 #include <algorithm>
-#include <array>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace vera {
@@ -18,7 +19,7 @@ namespace vera {
 namespace {
 
 /// A tile is a few generations of view rays.
-constexpr std::size_t tile_side = 32;
+constexpr std::size_t usual_tile_side = 32;
 
 /// What a thread needs for the tiles that it renders, one after another.
 struct TileWork {
@@ -29,8 +30,8 @@ struct TileWork {
 
 /// The rays through the centres of the tile's pixels.
 void find_center_rays(const Raster& raster, const Tile& tile, std::vector<QueryRay>& rays) {
-    std::array<Vec3, tile_side> columns;
-    std::array<Vec3, tile_side> rows;
+    std::vector<Vec3> columns(tile.width);
+    std::vector<Vec3> rows(tile.height);
     for (std::size_t x = 0; x < tile.width; ++x)
         columns[x] = raster.rays.place_across(raster.across(static_cast<double>(tile.x + x)));
     for (std::size_t y = 0; y < tile.height; ++y)
@@ -59,7 +60,10 @@ void render_tile(const Raster& raster, const Tile& tile, TileWork& work, Image& 
 /// One ray a pixel.
 RenderStatistics
 render_centers(const TracedScene& traced, const Raster& raster, Image& image, ProgressMeter& done) {
-    const Tiling tiling = {raster.width, raster.height, tile_side};
+    const Tiling tiling = {
+        raster.width,
+        raster.height,
+        tile_side(usual_tile_side, traced.generation_size, raster.width, raster.height)};
     Workspaces<TileWork> workspaces([&] {
         return std::make_unique<TileWork>(TileWork{GenerationTracer(traced), {}, {}});
     });
@@ -78,6 +82,16 @@ render_centers(const TracedScene& traced, const Raster& raster, Image& image, Pr
     return statistics;
 }
 
+/// What the view rays take; what they send on is not known yet.
+void require_generation(const PictureSettings& settings, std::size_t generation_size) {
+    const std::size_t rays =
+        std::min(std::size_t{settings.width} * settings.height, generation_size);
+    require_memory(
+        static_cast<double>(rays) * static_cast<double>(GenerationTracer::bytes_per_ray()),
+        "a generation of " + std::to_string(rays) + " view rays",
+        "a smaller picture, or generations in parts, take less");
+}
+
 } // namespace
 
 RenderResult render_scene(
@@ -87,9 +101,12 @@ RenderResult render_scene(
     const PictureSettings& settings,
     SampleType sample_type,
     const Progress& progress,
-    const CancelFlag* cancel) {
+    const CancelFlag* cancel,
+    std::size_t generation_size) {
+    require_generation(settings, generation_size);
     RenderResult result;
     TracedScene traced = traced_scene(scene, index, settings, cancel);
+    traced.generation_size = generation_size;
     if (settings.exposure)
         result.exposure = expose(traced, camera, *settings.exposure, result.statistics);
 

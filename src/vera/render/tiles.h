@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "vera/render/generation_size.h"
+
 #include <algorithm>
 #include <cstddef>
 
@@ -13,6 +15,12 @@ struct Tile {
     std::size_t width = 0;
     std::size_t height = 0;
 };
+
+/// The side of tiles that is usual, or of one of the whole picture, so that generations are whole.
+constexpr std::size_t
+tile_side(std::size_t usual, std::size_t generation_size, std::size_t width, std::size_t height) {
+    return generation_size == whole_generations ? std::max({width, height, std::size_t{1}}) : usual;
+}
 
 /// A picture cut into squares, those at the right and lower edges smaller, numbered row by row.
 struct Tiling {

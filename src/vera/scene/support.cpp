@@ -7,8 +7,10 @@
 #include "vera/scene/crossings.h"
 
 #include <algorithm>
-#include <queue>
+#include <cmath>
+#include <cstddef>
 #include <span>
+#include <vector>
 
 namespace vera {
 
@@ -75,8 +77,6 @@ struct Prospect {
     double reach = 0; ///< at most, in the main scene's coordinates
     const Geometry* geometry = nullptr;
     Affine3 to_world;
-
-    friend bool operator<(const Prospect& a, const Prospect& b) { return a.reach < b.reach; }
 };
 
 bool is_empty(const Geometry& geometry, const Item& item) {
@@ -116,14 +116,23 @@ SceneSupport::SceneSupport(const Scene& scene)
 std::optional<Vec3> SceneSupport::farthest_point(Vec3 direction) const {
     if (bounds_.empty())
         return std::nullopt;
+    // Boxes are rounded outward, by some units in the last place for each subscene within another:
+    // what is farther by that alone is as far. Else each of a million copies that end at one plane
+    // would be looked into.
+    const double rounding = 0x1p-40
+        * std::max(std::abs(reach_of(bounds_, direction)), std::abs(reach_of(bounds_, -direction)));
     Vec3 farthest;
     double reach = -Box3::infinity;
-    // The most promising subscene first: what cannot reach farther than the best is never opened.
-    std::priority_queue<Prospect> prospects;
-    prospects.push({Box3::infinity, &scene_.geometry, {}});
-    while (!prospects.empty() && prospects.top().reach > reach) {
-        const Prospect prospect = prospects.top();
-        prospects.pop();
+    // Of the subscenes of one the most promising first, down to its primitives: what cannot reach
+    // farther than these is never opened. Not the most promising of all: of copies that reach as
+    // far, all would be opened before any primitive is seen.
+    std::vector<Prospect> prospects = {{Box3::infinity, &scene_.geometry, {}}};
+    while (!prospects.empty()) {
+        const Prospect prospect = prospects.back();
+        prospects.pop_back();
+        if (!(prospect.reach > reach + rounding))
+            continue;
+        const auto first = static_cast<std::ptrdiff_t>(prospects.size());
         const Vec3 local_direction = transposed_times(prospect.to_world.linear, direction);
         for (const Item& item : prospect.geometry->items) {
             if (item.kind == ItemKind::subscene_call) {
@@ -135,8 +144,8 @@ std::optional<Vec3> SceneSupport::farthest_point(Vec3 direction) const {
                 const double callee_reach =
                     reach_of(subscene_bounds_[callee], transposed_times(to_world.linear, direction))
                     + dot(to_world.translation, direction);
-                if (callee_reach > reach)
-                    prospects.push({callee_reach, &scene_.subscenes[callee], to_world});
+                if (callee_reach > reach + rounding)
+                    prospects.push_back({callee_reach, &scene_.subscenes[callee], to_world});
             } else if (!is_empty(*prospect.geometry, item)) {
                 const Vec3 point = transformed_point(
                     prospect.to_world,
@@ -147,6 +156,10 @@ std::optional<Vec3> SceneSupport::farthest_point(Vec3 direction) const {
                 }
             }
         }
+        const auto nearer = [](const Prospect& a, const Prospect& b) { return a.reach < b.reach; };
+        const auto best = std::max_element(prospects.begin() + first, prospects.end(), nearer);
+        if (best != prospects.end())
+            std::iter_swap(best, prospects.end() - 1);
     }
     return farthest;
 }

@@ -21,7 +21,8 @@ class SceneSupport {
 public:
     explicit SceneSupport(const Scene& scene);
 
-    /// A point of the scene that lies farthest in the direction; nothing for an empty scene.
+    /// A point of the scene that lies farthest in the direction, but for rounding: by less than
+    /// 2^-40 of how far the scene's box reaches. Nothing for an empty scene.
     std::optional<Vec3> farthest_point(Vec3 direction) const;
 
     const Box3& bounds() const { return bounds_; }

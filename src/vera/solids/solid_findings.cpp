@@ -4,14 +4,17 @@
 #include "vera/base/long_loop.h"
 #include "vera/base/progress_part.h"
 #include "vera/base/random.h"
+#include "vera/scene/bounds.h"
 #include "vera/solids/box_pairs.h"
 #include "vera/solids/shells.h"
 #include "vera/solids/solid_faces.h"
+#include "vera/solids/sphere_crossing.h"
 #include "vera/solids/triangle_relation.h"
 
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
@@ -26,6 +29,17 @@ using Kind = SolidFinding::Kind;
 std::string shown(Vec3 point) {
     return fmt::format("({} {} {})", point.x, point.y, point.z);
 }
+
+/// Faces that have something in common.
+struct FirstOfMany {
+    std::uint32_t first = ~std::uint32_t{0};
+    std::size_t count = 0;
+
+    void add(std::uint32_t face) {
+        first = std::min(first, face);
+        ++count;
+    }
+};
 
 /// The findings of one geometry.
 class GeometryCheck {
@@ -58,6 +72,18 @@ private:
     void add_turned(const std::vector<std::uint32_t>& turned, std::size_t by_normal);
     void check_openness(const Shell& shell);
     void find_pairs(const Progress& progress, const CancelFlag* cancel);
+
+    /// What may pass through something else: a triangle, or a whole sphere.
+    struct Part {
+        static constexpr std::uint32_t no_triangle = 0xffffffff;
+
+        std::uint32_t item = 0;
+        std::uint32_t triangle = no_triangle; ///< of faces_
+
+        bool is_sphere() const { return triangle == no_triangle; }
+    };
+
+    TriangleRelation relation_of(const Part& a, const Part& b) const;
 
     const Item& item_of(std::uint32_t face) const {
         return geometry_.items[faces_.faces[face].item];
@@ -120,6 +146,18 @@ private:
         return finding;
     }
 
+    /// About a face, and others perhaps.
+    SolidFinding& add_of_face(Kind kind, Severity severity, std::uint32_t face) {
+        const std::uint32_t item = faces_.faces[face].item;
+        SolidFinding& finding = add(kind, severity, item);
+        if (is_mesh(face)) {
+            const auto first = std::ranges::lower_bound(
+                faces_.faces, item, std::ranges::less(), &SolidFaces::Face::item);
+            finding.triangle = face - static_cast<std::uint32_t>(first - faces_.faces.begin());
+        }
+        return finding;
+    }
+
     void
     add_duplicate(std::uint32_t item, std::uint32_t first, const char* what, Severity severity) {
         SolidFinding& finding = add(Kind::duplicate, severity, item);
@@ -163,11 +201,11 @@ void GeometryCheck::find_duplicates() {
             same.emplace_back(by_hash[i].second, by_hash[first].second);
     }
     std::sort(same.begin(), same.end());
-    std::map<std::uint32_t, std::size_t> twice_in_mesh;
+    std::map<std::uint32_t, FirstOfMany> twice_in_mesh; // by item
     for (const auto& [face, first] : same) {
         const std::uint32_t item = faces_.faces[face].item;
         if (is_mesh(face))
-            ++twice_in_mesh[item];
+            twice_in_mesh[item].add(face);
         else
             add_duplicate(
                 item,
@@ -176,8 +214,9 @@ void GeometryCheck::find_duplicates() {
                 is_outside_behind_loop(face) == is_outside_behind_loop(first) ? Severity::warning
                                                                               : Severity::note);
     }
-    for (const auto& [item, count] : twice_in_mesh) {
-        SolidFinding& finding = add(Kind::duplicate, Severity::note, item);
+    for (const auto& [item, faces] : twice_in_mesh) {
+        const std::size_t count = faces.count;
+        SolidFinding& finding = add_of_face(Kind::duplicate, Severity::note, faces.first);
         finding.problem = fmt::format(
             "{} triangle{} of this mesh stand{} in the same place as another face",
             count,
@@ -263,8 +302,7 @@ void GeometryCheck::check_sides(const Shell& shell) {
 }
 
 void GeometryCheck::add_wrong_inner_point(std::uint32_t face) {
-    SolidFinding& finding =
-        add(Kind::wrong_inner_point, Severity::warning, faces_.faces[face].item);
+    SolidFinding& finding = add_of_face(Kind::wrong_inner_point, Severity::warning, face);
     finding.problem = "the inner point is on the outer side of this face of its solid";
     finding.remedy =
         "move IP to the inside of all faces that it is for; a solid that no point sees "
@@ -278,10 +316,10 @@ void GeometryCheck::add_turned(const std::vector<std::uint32_t>& turned, std::si
     const bool is_told_once = are_all || is_mesh(turned.front());
     for (const std::uint32_t face : turned) {
         const bool changes_picture = is_transparent(item_of(face)) && !are_all;
-        SolidFinding& finding =
-            add(is_told_once ? Kind::turned_solid : Kind::turned_face,
-                changes_picture ? Severity::warning : Severity::note,
-                faces_.faces[face].item);
+        SolidFinding& finding = add_of_face(
+            is_told_once ? Kind::turned_solid : Kind::turned_face,
+            changes_picture ? Severity::warning : Severity::note,
+            face);
         finding.problem = are_all
             ? fmt::format(
                 "the normals of all {} faces of this closed solid point inwards", by_normal)
@@ -307,7 +345,7 @@ void GeometryCheck::check_openness(const Shell& shell) {
         return;
     const std::uint32_t face = shell.open.front().face;
     const Item& item = item_of(face);
-    SolidFinding& finding = add(Kind::open, Severity::note, faces_.faces[face].item);
+    SolidFinding& finding = add_of_face(Kind::open, Severity::note, face);
     finding.problem = fmt::format(
         "this solid is open: {} of its {} edges belong{} to one face alone:",
         shell.open.size(),
@@ -332,44 +370,113 @@ void GeometryCheck::check_openness(const Shell& shell) {
         "the same differ";
 }
 
+TriangleRelation GeometryCheck::relation_of(const Part& a, const Part& b) const {
+    const auto sphere_of = [&](const Part& part) -> const Sphere& {
+        return geometry_.spheres[geometry_.items[part.item].index];
+    };
+    const auto corners_of = [&](const Part& part) {
+        return faces_.corners_of(faces_.triangles[part.triangle]);
+    };
+    const auto crossing_if = [](bool is) {
+        return is ? TriangleRelation::crossing : TriangleRelation::apart;
+    };
+    // What a generator makes of one statement is as it should be.
+    const Item& first_item = geometry_.items[a.item];
+    const Item& second_item = geometry_.items[b.item];
+    const bool is_one_line = first_item.line != 0 && first_item.line == second_item.line
+        && first_item.file == second_item.file;
+    if ((a.is_sphere() || b.is_sphere()) && is_one_line)
+        return TriangleRelation::apart;
+    if (a.is_sphere() && b.is_sphere())
+        return crossing_if(is_crossing(sphere_of(a), sphere_of(b)));
+    if (a.is_sphere() || b.is_sphere())
+        return crossing_if(
+            is_crossing(sphere_of(a.is_sphere() ? a : b), corners_of(a.is_sphere() ? b : a)));
+    const std::uint32_t first = faces_.triangles[a.triangle].face;
+    const std::uint32_t second = faces_.triangles[b.triangle].face;
+    if (first == second)
+        return TriangleRelation::apart;
+    const TriangleRelation between = relation(corners_of(a), corners_of(b));
+    // What stands twice is told as that.
+    return between == TriangleRelation::covering && loop_of(first) == loop_of(second)
+        ? TriangleRelation::apart
+        : between;
+}
+
 void GeometryCheck::find_pairs(const Progress& progress, const CancelFlag* cancel) {
     constexpr std::size_t most_pairs = 1'000'000;
     using ItemPair = std::tuple<Kind, std::uint32_t, std::uint32_t>;
-    std::map<ItemPair, std::size_t> pairs;
+    std::map<ItemPair, FirstOfMany> pairs;
     std::size_t found = 0;
+    std::vector<Part> parts;
     std::vector<Box3> boxes;
-    boxes.reserve(faces_.triangles.size());
-    for (const SolidFaces::Triangle& triangle : faces_.triangles) {
+    parts.reserve(faces_.triangles.size() + geometry_.spheres.size());
+    boxes.reserve(parts.capacity());
+    for (std::uint32_t i = 0; i < faces_.triangles.size(); ++i) {
+        const SolidFaces::Triangle& triangle = faces_.triangles[i];
         const auto [a, b, c] = faces_.corners_of(triangle);
+        parts.push_back({faces_.faces[triangle.face].item, i});
         boxes.push_back(grown(grown(grown(Box3(), a), b), c));
     }
+    for (std::uint32_t i = 0; i < geometry_.items.size(); ++i)
+        if (geometry_.items[i].kind == ItemKind::sphere) {
+            parts.push_back({i});
+            boxes.push_back(bounds(geometry_.spheres[geometry_.items[i].index]));
+        }
+    const auto face_of = [&](const Part& part) { return faces_.triangles[part.triangle].face; };
     const auto look_at = [&](std::uint32_t i, std::uint32_t k) {
-        const SolidFaces::Triangle& a = faces_.triangles[i];
-        const SolidFaces::Triangle& b = faces_.triangles[k];
-        if (a.face == b.face || found == most_pairs)
+        if (found == most_pairs)
             return;
-        const TriangleRelation between = relation(faces_.corners_of(a), faces_.corners_of(b));
-        if (between == TriangleRelation::apart
-            || (between == TriangleRelation::covering && loop_of(a.face) == loop_of(b.face)))
+        const TriangleRelation between = relation_of(parts[i], parts[k]);
+        if (between == TriangleRelation::apart)
             return;
         ++found;
-        const std::uint32_t first = faces_.faces[a.face].item;
-        const std::uint32_t second = faces_.faces[b.face].item;
-        ++pairs[ItemPair(
-            between == TriangleRelation::crossing ? Kind::crossing : Kind::covering,
-            std::max(first, second),
-            std::min(first, second))];
+        const std::uint32_t first = parts[i].item;
+        const std::uint32_t second = parts[k].item;
+        const bool are_faces = !parts[i].is_sphere() && !parts[k].is_sphere();
+        pairs[ItemPair(
+                  between == TriangleRelation::crossing ? Kind::crossing : Kind::covering,
+                  std::max(first, second),
+                  std::min(first, second))]
+            .add(are_faces ? std::max(face_of(parts[i]), face_of(parts[k])) : 0);
     };
     for_each_box_pair(boxes, look_at, progress, cancel);
-    for (const auto& [pair, count] : pairs) {
+    const auto is_sphere = [&](std::uint32_t item) {
+        return geometry_.items[item].kind == ItemKind::sphere;
+    };
+    const auto word_for = [&](std::uint32_t item) {
+        return is_sphere(item) ? "sphere" : "face or mesh";
+    };
+    // A sphere is told of once: in a heap or a row of them each may meet a hundred.
+    std::map<std::uint32_t, std::size_t> pairs_of_sphere;
+    for (const auto& [pair, faces] : pairs)
+        if (is_sphere(std::get<1>(pair)))
+            ++pairs_of_sphere[std::get<1>(pair)];
+    for (const auto& [pair, faces] : pairs) {
         const auto [kind, item, other] = pair;
-        SolidFinding& finding = add(kind, Severity::note, item);
+        const std::size_t count = faces.count;
+        std::string more;
+        if (is_sphere(item)) {
+            const auto untold = pairs_of_sphere.extract(item);
+            if (untold.empty())
+                continue;
+            if (untold.mapped() > 1)
+                more = fmt::format(" and {} more", untold.mapped() - 1);
+        }
+        SolidFinding& finding = is_sphere(item) || is_sphere(other)
+            ? add(kind, Severity::note, item)
+            : add_of_face(kind, Severity::note, faces.first);
         finding.other = other;
         const std::string with = item == other
             ? fmt::format("itself, at {} pair{} of triangles", count, count == 1 ? "" : "s")
-            : fmt::format("that of {}", place_of(other, geometry_.items[item].file));
+            : fmt::format(
+                "{} of {}",
+                std::string_view(word_for(item)) == word_for(other)
+                    ? "that"
+                    : fmt::format("the {}", word_for(other)),
+                place_of(other, geometry_.items[item].file));
         finding.problem = kind == Kind::crossing
-            ? fmt::format("this face or mesh passes through {}", with)
+            ? fmt::format("this {} passes through {}{}", word_for(item), with, more)
             : fmt::format("a part of this face or mesh coincides with {}", with);
         finding.remedy = kind == Kind::crossing
             ? ""

@@ -30,6 +30,8 @@ struct SolidFinding {
     Severity severity = Severity::note; ///< a warning or a note: a picture can be made of all
     std::size_t subscene = 0;           ///< 0: the main scene; else number subscene - 1
     std::uint32_t item = 0;
+    /// Of a mesh the first of its triangles that this is about, counted from 0.
+    std::optional<std::uint32_t> triangle = {};
     std::optional<std::uint32_t> other = {}; ///< an item of the same geometry
     std::string problem = {};
     std::string remedy = {};
@@ -43,9 +45,10 @@ struct SolidFinding {
 const char* name_of(SolidFinding::Kind kind);
 
 /// What is doubtful about the solids of each geometry, by itself: where subscenes meet one another
-/// is not looked at, nor are curved surfaces but for those that stand in the text twice. Of one
-/// geometry in the order of the kinds, then of the text. Takes about n log n for n faces that
-/// spread over space; looks at a million pairs that cross or cover, at most. Throws Cancelled.
+/// is not looked at, nor are shapes of revolution but for those that stand in the text twice.
+/// Spheres cross each other and faces where they do so by more than touching_part. Of one geometry
+/// in the order of the kinds, then of the text. Takes about n log n for n faces that spread over
+/// space; looks at a million pairs that cross or cover, at most. Throws Cancelled.
 std::vector<SolidFinding> solid_findings(
     const Scene& scene, const Progress& progress = {}, const CancelFlag* cancel = nullptr);
 

@@ -2,13 +2,11 @@
 #include "vera/theory/conjugation_tree.h"
 
 #include "vera/base/available_memory.h"
-#include "vera/base/check.h"
 #include "vera/base/long_loop.h"
+#include "vera/base/progress_part.h"
 #include "vera/theory/ham_sandwich.h"
-#include "vera/theory/plane_hull.h"
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -19,57 +17,72 @@ namespace {
 
 using Numbers = std::vector<std::uint32_t>;
 
+/// What dividing takes of the time, beside the hulls.
+constexpr double dividing_part = 0.8;
+
 Numbers all_numbers(std::size_t count) {
     Numbers numbers(count);
     std::iota(numbers.begin(), numbers.end(), std::uint32_t{0});
     return numbers;
 }
 
-} // namespace
+/// What is asked for where memory is not known to suffice.
+std::span<const PlanePoint> required(std::span<const PlanePoint> points, std::size_t leaf_size) {
+    require_plane_points(points);
+    require_memory(
+        ConjugationTree::bytes_forecast(points.size(), leaf_size)
+            + static_cast<double>(points.size() * ConjugationTree::building_bytes_per_point),
+        "a conjugation tree of " + std::to_string(points.size()) + " points",
+        "fewer points, and leaves of more than " + std::to_string(leaf_size)
+            + " points, take less");
+    return points;
+}
 
-class ConjugationTreeBuilder {
+class ConjugationCuts {
 public:
-    ConjugationTreeBuilder(
-        ConjugationTree& tree,
+    ConjugationCuts(
+        std::span<const PlanePoint> points,
+        Numbers numbers,
         std::size_t leaf_size,
-        const Progress& progress,
+        EqualPoints equal,
+        Progress progress,
         const CancelFlag* cancel)
-        : tree_(tree)
+        : points_(points)
         , leaf_size_(std::max<std::size_t>(leaf_size, 1))
-        , progress_(progress)
-        , cancel_(cancel) {}
+        , equal_(equal)
+        , progress_(std::move(progress))
+        , cancel_(cancel) {
+        shape_.numbers = std::move(numbers);
+    }
 
-    void build() {
-        const auto count = static_cast<std::uint32_t>(tree_.numbers_.size());
+    TreeShape shape() {
+        const auto count = static_cast<std::uint32_t>(shape_.numbers.size());
         if (count > 0)
             add_node(0, count, {1, 0});
-        tree_.nodes_.shrink_to_fit();
-        tree_.hulls_.shrink_to_fit();
+        return std::move(shape_);
     }
 
 private:
-    using Hull = PlaneHull;
-
     /// A node of the points from first to last, and all below it. Halves them along the direction.
-    Hull add_node(std::uint32_t first, std::uint32_t last, PlaneDirection direction) {
+    void add_node(std::uint32_t first, std::uint32_t last, PlaneDirection direction) {
         stop_if_raised(cancel_);
-        const std::size_t number = tree_.nodes_.size();
-        tree_.nodes_.push_back({first, last});
-        Hull hull;
-        if (last - first <= leaf_size_ || are_equal(first, last)) {
-            hull = hull_of(tree_.points_, tree_.numbers_of(tree_.nodes_[number]));
+        const std::size_t number = shape_.nodes.size();
+        shape_.nodes.push_back({first, last});
+        if (is_undivided(first, last)) {
             tell(last);
-        } else {
-            const std::uint32_t middle = first + (last - first) / 2;
-            halve(first, middle, last, direction);
-            const PlaneDirection next = conjugate(first, middle, last, direction);
-            const Hull left = add_node(first, middle, next);
-            tree_.nodes_[number].children = static_cast<std::uint32_t>(tree_.nodes_.size());
-            const Hull right = add_node(middle, last, next);
-            hull = hull_of(tree_.points_, left, right);
+            return;
         }
-        keep(tree_.nodes_[number], hull);
-        return hull;
+        const std::uint32_t middle = first + (last - first) / 2;
+        halve(first, middle, last, direction);
+        const PlaneDirection next = conjugate(first, middle, last, direction);
+        add_node(first, middle, next);
+        shape_.nodes[number].children = static_cast<std::uint32_t>(shape_.nodes.size());
+        add_node(middle, last, next);
+    }
+
+    bool is_undivided(std::uint32_t first, std::uint32_t last) const {
+        return last - first <= leaf_size_
+            || (equal_ == EqualPoints::together && are_equal(first, last));
     }
 
     bool are_equal(std::uint32_t first, std::uint32_t last) const {
@@ -83,14 +96,14 @@ private:
     void
     halve(std::uint32_t first, std::uint32_t middle, std::uint32_t last, PlaneDirection direction) {
         const auto place = [&](std::uint32_t i) {
-            return tree_.numbers_.begin() + static_cast<std::ptrdiff_t>(i);
+            return shape_.numbers.begin() + static_cast<std::ptrdiff_t>(i);
         };
         std::nth_element(
             place(first),
             place(middle),
             place(last),
             [&, before = TurnedOrder{direction}](std::uint32_t a, std::uint32_t b) {
-                return before(tree_.points_[a], tree_.points_[b]);
+                return before(points_[a], points_[b]);
             });
     }
 
@@ -110,143 +123,49 @@ private:
             halves.first(middle - first), halves.subspan(middle - first), direction, first);
     }
 
-    void keep(ConjugationNode& node, const Hull& hull) {
-        std::vector<std::uint32_t>& hulls = tree_.hulls_;
-        node.below = static_cast<std::uint32_t>(hulls.size());
-        hulls.insert(hulls.end(), hull.below.begin(), hull.below.end());
-        node.above = static_cast<std::uint32_t>(hulls.size());
-        hulls.insert(hulls.end(), hull.above.begin(), hull.above.end());
-        VERA_CHECK(hulls.size() <= std::numeric_limits<std::uint32_t>::max());
-        node.hull_end = static_cast<std::uint32_t>(hulls.size());
-    }
-
     void tell(std::uint32_t done) const {
         if (progress_)
-            progress_(static_cast<double>(done) / static_cast<double>(tree_.numbers_.size()));
+            progress_(static_cast<double>(done) / static_cast<double>(shape_.numbers.size()));
     }
 
-    PlanePoint at(std::uint32_t place) const { return tree_.points_[tree_.numbers_[place]]; }
+    PlanePoint at(std::uint32_t place) const { return points_[shape_.numbers[place]]; }
 
-    ConjugationTree& tree_;
+    std::span<const PlanePoint> points_;
     std::size_t leaf_size_;
-    const Progress& progress_;
+    EqualPoints equal_;
+    Progress progress_;
     const CancelFlag* cancel_;
+    TreeShape shape_;
 };
+
+} // namespace
 
 ConjugationTree::ConjugationTree(
     std::span<const PlanePoint> points,
     std::vector<std::uint32_t> numbers,
     std::size_t leaf_size,
     const Progress& progress,
-    const CancelFlag* cancel)
-    : points_(points)
-    , numbers_(std::move(numbers)) {
-    ConjugationTreeBuilder(*this, leaf_size, progress, cancel).build();
-}
+    const CancelFlag* cancel,
+    EqualPoints equal)
+    : PartitionTree(
+        points,
+        ConjugationCuts(
+            points,
+            std::move(numbers),
+            leaf_size,
+            equal,
+            progress_between(progress, 0, dividing_part),
+            cancel)
+            .shape(),
+        progress_between(progress, dividing_part, 1),
+        cancel) {}
 
 ConjugationTree::ConjugationTree(
     std::span<const PlanePoint> points,
     std::size_t leaf_size,
     const Progress& progress,
     const CancelFlag* cancel)
-    : points_(points)
-    , numbers_(all_numbers(points.size())) {
-    require_plane_points(points);
-    require_memory(
-        bytes_forecast(points.size(), leaf_size)
-            + static_cast<double>(points.size() * building_bytes_per_point),
-        "a conjugation tree of " + std::to_string(points.size()) + " points",
-        "fewer points, and leaves of more than " + std::to_string(leaf_size)
-            + " points, take less");
-    ConjugationTreeBuilder(*this, leaf_size, progress, cancel).build();
-}
-
-Inclusion ConjugationTree::inclusion(
-    const ConjugationNode& node, const PlaneStrip& strip, QueryCounts& counts) const {
-    const auto hulls = std::span<const std::uint32_t>(hulls_);
-    const HullExtent extent = extent_along(
-        strip.normal,
-        points_,
-        hulls.subspan(node.below, node.above - node.below),
-        hulls.subspan(node.above, node.hull_end - node.above));
-    ++counts.nodes;
-    counts.vertices += extent.vertices;
-    if (extent.highest < strip.lowest || strip.highest < extent.lowest)
-        return Inclusion::none;
-    return strip.lowest <= extent.lowest && extent.highest <= strip.highest ? Inclusion::all
-                                                                            : Inclusion::some;
-}
-
-template <typename Whole, typename Single>
-void ConjugationTree::search(
-    const PlaneStrip& strip, QueryCounts& counts, const Whole& whole, const Single& single) const {
-    require_plane_strip(strip);
-    std::vector<std::uint32_t> waiting;
-    if (!nodes_.empty())
-        waiting.push_back(0);
-    while (!waiting.empty()) {
-        const std::uint32_t number = waiting.back();
-        waiting.pop_back();
-        const ConjugationNode& node = nodes_[number];
-        const Inclusion included = inclusion(node, strip, counts);
-        if (included == Inclusion::all) {
-            whole(node);
-        } else if (included == Inclusion::some && node.is_leaf()) {
-            counts.points += node.size();
-            for (const std::uint32_t point : numbers_of(node))
-                if (contains(strip, points_[point]))
-                    single(point);
-        } else if (included == Inclusion::some) {
-            waiting.push_back(node.children);
-            waiting.push_back(number + 1);
-        }
-    }
-}
-
-std::size_t ConjugationTree::count(const PlaneStrip& strip, QueryCounts* counts) const {
-    QueryCounts steps;
-    std::size_t found = 0;
-    search(
-        strip,
-        counts != nullptr ? *counts : steps,
-        [&](const ConjugationNode& node) { found += node.size(); },
-        [&](std::uint32_t) { ++found; });
-    return found;
-}
-
-std::vector<std::uint32_t>
-ConjugationTree::numbers_in(const PlaneStrip& strip, QueryCounts* counts) const {
-    QueryCounts steps;
-    Numbers found;
-    search(
-        strip,
-        counts != nullptr ? *counts : steps,
-        [&](const ConjugationNode& node) {
-            const auto numbers = numbers_of(node);
-            found.insert(found.end(), numbers.begin(), numbers.end());
-        },
-        [&](std::uint32_t number) { found.push_back(number); });
-    std::sort(found.begin(), found.end());
-    return found;
-}
-
-std::size_t ConjugationTree::bytes() const {
-    return nodes_.capacity() * sizeof(ConjugationNode)
-        + (numbers_.capacity() + hulls_.capacity()) * sizeof(std::uint32_t);
-}
-
-double ConjugationTree::bytes_forecast(std::size_t count, std::size_t leaf_size) {
-    auto bytes = static_cast<double>(count * sizeof(std::uint32_t));
-    std::size_t size = count;
-    for (double nodes = 1; size > 0; nodes *= 2) {
-        // All points are vertices at worst, and the ends of the chains are there twice.
-        bytes += nodes
-            * static_cast<double>(sizeof(ConjugationNode) + (size + 2) * sizeof(std::uint32_t));
-        if (size <= std::max<std::size_t>(leaf_size, 1))
-            break;
-        size = (size + 1) / 2;
-    }
-    return bytes;
-}
+    : ConjugationTree(
+        required(points, leaf_size), all_numbers(points.size()), leaf_size, progress, cancel) {}
 
 } // namespace vera

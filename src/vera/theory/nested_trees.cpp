@@ -3,8 +3,10 @@
 
 #include "vera/base/available_memory.h"
 #include "vera/base/long_loop.h"
+#include "vera/theory/conjugation_tree.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <string>
@@ -17,6 +19,13 @@ namespace {
 constexpr std::size_t last_condition = side_condition_count - 1;
 
 using Numbers = std::vector<std::uint32_t>;
+
+std::array<SideCondition, side_condition_count> conditions_in(ConditionOrder order) {
+    using enum SideCondition;
+    if (order == ConditionOrder::y_first)
+        return {below_upper_y, above_lower_y, below_upper_x, above_lower_x};
+    return {below_upper_x, above_lower_x, below_upper_y, above_lower_y};
+}
 
 } // namespace
 
@@ -40,12 +49,18 @@ private:
 
     std::unique_ptr<Level> level(std::size_t condition, Numbers numbers) {
         auto made = std::make_unique<Level>();
-        made->tree = ConjugationTree(
-            trees_.points_.at(condition), std::move(numbers), trees_.few_, {}, cancel_);
-        const std::span<const ConjugationNode> nodes = made->tree.nodes();
+        made->tree = partition_tree(
+            trees_.kind_,
+            trees_.points_.at(condition),
+            std::move(numbers),
+            trees_.few_,
+            {},
+            cancel_,
+            EqualPoints::together);
+        const std::span<const PartitionNode> nodes = made->tree.nodes();
         made->nearness.reserve(nodes.size());
-        for (const ConjugationNode& node : nodes)
-            made->nearness.push_back(nearness(made->tree.numbers_of(node)));
+        for (const PartitionNode& node : nodes)
+            made->nearness.push_back(nearness_of(trees_.rectangles_, made->tree.numbers_of(node)));
         if (condition < last_condition)
             add_inner(*made, condition);
         else if (!nodes.empty())
@@ -54,7 +69,7 @@ private:
     }
 
     void add_inner(Level& level, std::size_t condition) {
-        const std::span<const ConjugationNode> nodes = level.tree.nodes();
+        const std::span<const PartitionNode> nodes = level.tree.nodes();
         level.inner.resize(nodes.size());
         for (std::size_t i = 0; i < nodes.size(); ++i) {
             if (nodes[i].size() <= trees_.few_)
@@ -67,16 +82,23 @@ private:
     }
 
     void add_all_sorted(Level& level) {
-        const std::size_t count = level.tree.numbers().size();
-        std::size_t depths = 0;
-        for (std::size_t size = count; size > trees_.few_; size = (size + 1) / 2)
-            ++depths;
-        level.by_z.assign(depths, Numbers(count));
+        level.by_z.assign(depths_of_many(level, 0), Numbers(level.tree.numbers().size()));
         add_sorted(level, 0, 0);
     }
 
+    /// Of nodes of more than few, from that node on downwards.
+    std::size_t depths_of_many(const Level& level, std::uint32_t number) const {
+        const PartitionNode& node = level.tree.nodes()[number];
+        if (node.size() <= trees_.few_)
+            return 0;
+        if (node.is_leaf())
+            return 1;
+        return 1
+            + std::max(depths_of_many(level, number + 1), depths_of_many(level, node.children));
+    }
+
     void add_sorted(Level& level, std::uint32_t number, std::size_t depth) {
-        const ConjugationNode& node = level.tree.nodes()[number];
+        const PartitionNode& node = level.tree.nodes()[number];
         if (node.size() <= trees_.few_)
             return;
         const auto numbers = level.tree.numbers_of(node);
@@ -93,19 +115,6 @@ private:
         add_sorted(level, node.children, depth + 1);
     }
 
-    NearnessOfNode nearness(std::span<const std::uint32_t> numbers) const {
-        NearnessOfNode found = {
-            std::numeric_limits<std::int32_t>::max(),
-            std::numeric_limits<std::int32_t>::min(),
-            std::numeric_limits<std::uint32_t>::max()};
-        for (const std::uint32_t number : numbers) {
-            found.lowest_z = std::min(found.lowest_z, trees_.rectangles_[number].z);
-            found.highest_z = std::max(found.highest_z, trees_.rectangles_[number].z);
-            found.least_number = std::min(found.least_number, number);
-        }
-        return found;
-    }
-
     NestedTrees& trees_;
     const Progress& progress_;
     const CancelFlag* cancel_;
@@ -117,12 +126,16 @@ public:
     RectangleSearch(const NestedTrees& trees, const WholeRay& ray, QueryCounts& counts)
         : trees_(trees)
         , ray_(ray)
-        , half_planes_(condition_half_planes(ray))
-        , counts_(counts) {}
+        , counts_(counts)
+        , first_(trees.rectangles_, ray) {
+        const auto half_planes = condition_half_planes(ray);
+        for (std::size_t i = 0; i < side_condition_count; ++i)
+            half_planes_.at(i) = half_planes.at(static_cast<std::size_t>(trees.conditions_.at(i)));
+    }
 
     std::optional<std::uint32_t> first() {
         search(*trees_.outermost_, 0, 0, 0);
-        return first_;
+        return first_.number();
     }
 
 private:
@@ -131,9 +144,9 @@ private:
     /// What of the node's rectangles meets the conditions from that one on; they meet those before.
     void
     search(const Level& level, std::size_t condition, std::uint32_t number, std::size_t depth) {
-        if (level.tree.nodes().empty() || !may_be_first(level.nearness[number]))
+        if (level.tree.nodes().empty() || !first_.may_be_in(level.nearness[number]))
             return;
-        const ConjugationNode& node = level.tree.nodes()[number];
+        const PartitionNode& node = level.tree.nodes()[number];
         switch (level.tree.inclusion(node, half_planes_.at(condition), counts_)) {
         case Inclusion::none:
             return;
@@ -157,32 +170,10 @@ private:
         const Level& level, std::size_t condition, std::uint32_t number, std::size_t depth) {
         std::uint32_t nearer = number + 1;
         std::uint32_t farther = level.tree.nodes()[number].children;
-        if (is_nearer(ray_, nearest_z(level.nearness[farther]), nearest_z(level.nearness[nearer])))
+        if (first_.is_nearer_in(level.nearness[farther], level.nearness[nearer]))
             std::swap(nearer, farther);
         search(level, condition, nearer, depth + 1);
         search(level, condition, farther, depth + 1);
-    }
-
-    std::int32_t nearest_z(const NearnessOfNode& node) const {
-        return ray_.direction[2] > 0 ? std::max(node.lowest_z, ray_.origin[2])
-                                     : std::min(node.highest_z, ray_.origin[2]);
-    }
-
-    bool may_be_first(const NearnessOfNode& node) const {
-        if (!is_ahead(ray_, ray_.direction[2] > 0 ? node.highest_z : node.lowest_z))
-            return false;
-        return !first_ || comes_before(nearest_z(node), node.least_number);
-    }
-
-    /// Whether one with that z and number would come before the first one that is known.
-    bool comes_before(std::int32_t z, std::uint32_t number) const {
-        const std::int32_t z_of_first = trees_.rectangles_[*first_].z;
-        return is_nearer(ray_, z, z_of_first) || (z == z_of_first && number < *first_);
-    }
-
-    void take(std::uint32_t number) {
-        if (!first_ || comes_before(trees_.rectangles_[number].z, number))
-            first_ = number;
     }
 
     void look_at_each(std::span<const std::uint32_t> numbers, std::size_t condition) {
@@ -192,7 +183,7 @@ private:
             for (std::size_t i = condition; is_met && i < side_condition_count; ++i)
                 is_met = contains(half_planes_.at(i), trees_.points_.at(i)[number]);
             if (is_met)
-                take(number);
+                first_.take(number);
         }
     }
 
@@ -209,13 +200,13 @@ private:
         if (ray_.direction[2] > 0) {
             const auto found = std::lower_bound(by_z.begin(), by_z.end(), start, z_below);
             if (found != by_z.end())
-                take(*found);
+                first_.take(*found);
             return;
         }
         const auto behind = std::upper_bound(by_z.begin(), by_z.end(), start, z_above);
         if (behind != by_z.begin())
             // Of those in its plane the one of the smallest number.
-            take(*std::lower_bound(
+            first_.take(*std::lower_bound(
                 by_z.begin(), behind, trees_.rectangles_[*(behind - 1)].z, z_below));
     }
 
@@ -223,7 +214,7 @@ private:
     const WholeRay& ray_;
     std::array<PlaneStrip, side_condition_count> half_planes_;
     QueryCounts& counts_;
-    std::optional<std::uint32_t> first_;
+    NearestRectangle first_;
 };
 
 std::size_t NestedTrees::usual_few(std::size_t rectangles) {
@@ -234,11 +225,15 @@ NestedTrees::NestedTrees(
     std::span<const IsoRectangle> rectangles,
     std::optional<std::size_t> few,
     const Progress& progress,
-    const CancelFlag* cancel)
-    : few_(std::max<std::size_t>(few.value_or(usual_few(rectangles.size())), 1)) {
+    const CancelFlag* cancel,
+    TreeKind kind,
+    ConditionOrder order)
+    : conditions_(conditions_in(order))
+    , few_(std::max<std::size_t>(few.value_or(usual_few(rectangles.size())), 1))
+    , kind_(kind) {
     require_rectangles(rectangles);
     require_memory(
-        bytes_forecast(rectangles.size(), few_),
+        bytes_forecast(rectangles.size(), few_, kind),
         "nesting trees of " + std::to_string(rectangles.size()) + " rectangles down to "
             + std::to_string(few_),
         "trees that end at more rectangles, as at " + std::to_string(8 * few_)
@@ -247,7 +242,7 @@ NestedTrees::NestedTrees(
     for (std::size_t i = 0; i < side_condition_count; ++i) {
         points_.at(i).reserve(rectangles.size());
         for (const IsoRectangle& rectangle : rectangles)
-            points_.at(i).push_back(condition_point(rectangle, static_cast<SideCondition>(i)));
+            points_.at(i).push_back(condition_point(rectangle, conditions_.at(i)));
     }
     NestedTreesBuilder(*this, progress, cancel).build();
 }
@@ -279,7 +274,7 @@ std::size_t NestedTrees::bytes() const {
 
 double
 NestedTrees::level_bytes_forecast(std::size_t condition, std::size_t count, std::size_t few) {
-    double bytes = sizeof(Level) + ConjugationTree::bytes_forecast(count, few);
+    double bytes = sizeof(Level) + halved_bytes_forecast(count, few);
     double nodes = 1;
     for (std::size_t size = count; size > 0; size = (size + 1) / 2, nodes *= 2) {
         bytes += nodes * (sizeof(NearnessOfNode) + sizeof(std::unique_ptr<Level>));
@@ -293,11 +288,12 @@ NestedTrees::level_bytes_forecast(std::size_t condition, std::size_t count, std:
     return bytes;
 }
 
-double NestedTrees::bytes_forecast(std::size_t rectangles, std::size_t few) {
+double NestedTrees::bytes_forecast(std::size_t rectangles, std::size_t few, TreeKind kind) {
     constexpr std::size_t each = sizeof(IsoRectangle) + side_condition_count * sizeof(PlanePoint)
         + ConjugationTree::building_bytes_per_point;
     return static_cast<double>(rectangles * each)
-        + level_bytes_forecast(0, rectangles, std::max<std::size_t>(few, 1));
+        + level_bytes_forecast(0, rectangles, std::max<std::size_t>(few, 1))
+        * std::pow(depth_factor(kind), side_condition_count);
 }
 
 } // namespace vera

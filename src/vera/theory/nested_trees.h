@@ -15,8 +15,10 @@
 // looked at one by one.
 #pragma once
 
-#include "vera/theory/conjugation_tree.h"
 #include "vera/theory/iso_rectangle.h"
+#include "vera/theory/nearest_rectangle.h"
+#include "vera/theory/partition_tree.h"
+#include "vera/theory/tree_kind.h"
 
 #include <array>
 #include <cstddef>
@@ -28,12 +30,8 @@
 
 namespace vera {
 
-/// What is known of a node's rectangles.
-struct NearnessOfNode {
-    std::int32_t lowest_z = 0;
-    std::int32_t highest_z = 0;
-    std::uint32_t least_number = 0;
-};
+/// Which conditions are asked for first.
+enum class ConditionOrder { x_first, y_first };
 
 class NestedTrees {
 public:
@@ -47,7 +45,9 @@ public:
         std::span<const IsoRectangle> rectangles,
         std::optional<std::size_t> few = {},
         const Progress& progress = {},
-        const CancelFlag* cancel = nullptr);
+        const CancelFlag* cancel = nullptr,
+        TreeKind kind = TreeKind::conjugation,
+        ConditionOrder order = ConditionOrder::x_first);
 
     /// As brute_force_first_rectangle(), and throws likewise. May be asked from many threads.
     std::optional<std::uint32_t>
@@ -56,9 +56,10 @@ public:
     /// What it takes of memory.
     std::size_t bytes() const;
 
-    /// At most so much, in bytes, whatever the rectangles are; with what building takes for a
-    /// while, and without what the allocator takes for itself.
-    static double bytes_forecast(std::size_t rectangles, std::size_t few);
+    /// At most so much, in bytes, whatever the rectangles are, of optimal trees about so much; with
+    /// what building takes for a while, and without what the allocator takes for itself.
+    static double
+    bytes_forecast(std::size_t rectangles, std::size_t few, TreeKind kind = TreeKind::conjugation);
 
 private:
     friend class NestedTreesBuilder;
@@ -66,7 +67,7 @@ private:
 
     /// A tree of one condition's points, and what its nodes have.
     struct Level {
-        ConjugationTree tree;
+        PartitionTree tree;
         std::vector<NearnessOfNode> nearness; ///< of each node
         std::vector<std::unique_ptr<Level>>
             inner; ///< of each node of more than few; not of the last
@@ -79,8 +80,10 @@ private:
     static double level_bytes_forecast(std::size_t condition, std::size_t count, std::size_t few);
 
     std::vector<IsoRectangle> rectangles_;
-    std::array<std::vector<PlanePoint>, side_condition_count> points_;
+    std::array<SideCondition, side_condition_count> conditions_; ///< of the trees, outermost first
+    std::array<std::vector<PlanePoint>, side_condition_count> points_; ///< for each of them
     std::size_t few_ = 0;
+    TreeKind kind_ = TreeKind::conjugation;
     std::unique_ptr<Level> outermost_;
 };
 

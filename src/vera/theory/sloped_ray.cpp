@@ -33,6 +33,15 @@ void require_sloped_rays(std::span<const SlopedRay> rays) {
     }
 }
 
+std::vector<std::uint32_t>
+brute_force_rays_met(const IsoRectangle& rectangle, std::span<const SlopedRay> rays) {
+    std::vector<std::uint32_t> met;
+    for (std::uint32_t i = 0; i < rays.size(); ++i)
+        if (meets(rays[i], rectangle))
+            met.push_back(i);
+    return met;
+}
+
 FirstRectangles brute_force_first_rectangles(
     std::span<const IsoRectangle> rectangles, std::span<const SlopedRay> rays) {
     require_rectangles(rectangles);

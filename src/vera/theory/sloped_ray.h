@@ -51,6 +51,11 @@ bool meets(const SlopedRay& ray, const IsoRectangle& rectangle);
 /// Throws std::invalid_argument where a number is larger than largest_plane_coordinate.
 void require_sloped_rays(std::span<const SlopedRay> rays);
 
+/// The reference of all that tells the rays that a rectangle meets: their numbers, in their order.
+/// Looks at each ray.
+std::vector<std::uint32_t>
+brute_force_rays_met(const IsoRectangle& rectangle, std::span<const SlopedRay> rays);
+
 /// Of each ray, the number of the rectangle that it meets first; nothing where it meets none.
 using FirstRectangles = std::vector<std::optional<std::uint32_t>>;
 

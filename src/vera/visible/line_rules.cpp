@@ -17,13 +17,30 @@ namespace {
 /// Faces that meet at less are one surface for the eye.
 constexpr double smooth_cosine = 0.9;
 
-bool are_of_one_item(const Scene& scene, std::uint64_t a, std::uint64_t b) {
+/// Whether they have the same normals at two corners of both: parts of one curved surface.
+bool join_smoothly(const Patch& a, const Patch& b) {
+    std::size_t same = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t k = 0; k < 3; ++k)
+            same += a.corners[i] == b.corners[k] && a.normals[i] == b.normals[k] ? 1 : 0;
+    return same >= 2;
+}
+
+/// Of one mesh, as it were: triangles of one, or patches that join.
+bool are_of_one_surface(const Scene& scene, std::uint64_t a, std::uint64_t b) {
     if (a == b)
         return true;
     const PrimitivePath path_a = path_to(scene, a);
     const PrimitivePath path_b = path_to(scene, b);
-    return path_a.geometry == path_b.geometry && path_a.element.item == path_b.element.item
-        && path_a.to_world == path_b.to_world;
+    if (path_a.geometry != path_b.geometry || path_a.to_world != path_b.to_world)
+        return false;
+    if (path_a.element.item == path_b.element.item)
+        return true;
+    const Geometry& geometry = *path_a.geometry;
+    const Item& item_a = geometry.items[path_a.element.item];
+    const Item& item_b = geometry.items[path_b.element.item];
+    return item_a.kind == ItemKind::patch && item_b.kind == ItemKind::patch
+        && join_smoothly(geometry.patches[item_a.index], geometry.patches[item_b.index]);
 }
 
 /// Whether both lie on one side of the frame, which cuts a surface there that goes on beyond it.
@@ -70,7 +87,7 @@ Vec3 LineRules::normal_towards_viewer(std::uint32_t face) const {
 }
 
 /// Whether faces beside each other are one surface for the eye. Facets of one curved piece are,
-/// however few there are of them; different things never.
+/// however few there are of them; different things never, but for patches with the same normals.
 bool LineRules::are_smooth(std::uint32_t one_face, std::uint32_t other_face) const {
     if (one_face == other_face)
         return true;
@@ -79,7 +96,7 @@ bool LineRules::are_smooth(std::uint32_t one_face, std::uint32_t other_face) con
     if (a.primitive == b.primitive && a.piece == b.piece)
         return true;
     return dot(normal_towards_viewer(one_face), normal_towards_viewer(other_face)) >= smooth_cosine
-        && are_of_one_item(scene_, a.primitive, b.primitive);
+        && are_of_one_surface(scene_, a.primitive, b.primitive);
 }
 
 bool LineRules::is_between_neighbours(const VisiblePiece& piece) const {

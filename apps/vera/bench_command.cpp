@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench_command.h"
+
+#include "command.h"
+#include <CLI/CLI.hpp>
+
+namespace vera {
+
+/// vera bench curve ...
+void add_bench_command(CLI::App& app, Console& console) {
+    CLI::App* command =
+        app.add_subcommand("bench", "what the paper proves, counted: growth beside its bound");
+    command->require_subcommand(1);
+    command->footer("Examples:\n"
+                    "  vera bench curve --list\n"
+                    "  vera bench curve conjugation-tree -o nodes.svg");
+    add_bench_curve(*command, console);
+}
+
+} // namespace vera

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rays among rectangles: proposition 1.
+#include "vera/math/elementary.h"
+#include "vera/theory/experiment.h"
+#include "vera/theory/nested_trees.h"
+#include "vera/theory/scattered_rectangles.h"
+
+#include <string>
+
+namespace vera {
+
+namespace {
+
+constexpr int rays = 300;
+/// Nodes of so many rectangles have no trees. Few, so that nesting begins at small sizes.
+constexpr std::size_t few = 8;
+
+CountedSize
+counted_steps(std::size_t size, double parts, std::uint64_t seed, const CancelFlag* cancel) {
+    std::mt19937_64 random(seed);
+    const NestedTrees trees(scattered_rectangles(size, parts, random), few, {}, cancel);
+    QueryCounts counts;
+    for (int i = 0; i < rays; ++i)
+        trees.first_rectangle(scattered_ray(random), &counts);
+    const auto n = static_cast<double>(size);
+    return {
+        n, static_cast<double>(counts.nodes + counts.points + counts.searches), power(n, 0.695)};
+}
+
+/// In how many sorted lists a rectangle is, one of each node of the innermost trees: as many as
+/// there are ways to go down four trees, through no more levels in all than one has.
+double places_of_each(double rectangles) {
+    const double levels = log2_of(rectangles / few);
+    return (levels + 1) * (levels + 2) * (levels + 3) * (levels + 4) / 24;
+}
+
+Experiment of_steps() {
+    Experiment experiment;
+    experiment.name = "prop1-steps";
+    experiment.counted = "nodes, rectangles and searches of 300 rays";
+    experiment.unit = "rectangles";
+    experiment.bound = "n^0.695";
+    experiment.source = "VERA 3.3.1, proposition 1, without its polylog";
+    experiment.first = 32;
+    experiment.last = 4096;
+    experiment.last_in_tests = 1024;
+    experiment.most = 65536;
+    experiment.sizes_a_doubling = 1;
+    return experiment;
+}
+
+} // namespace
+
+std::vector<Experiment> nested_trees_experiments() {
+    Experiment meeting = of_steps();
+    meeting.family = "meeting";
+    meeting.input = "rectangles that rays meet, of sides of up to twice their mean distance";
+    meeting.count = [](std::size_t size, std::uint64_t seed, const CancelFlag* cancel) {
+        return counted_steps(size, 2, seed, cancel);
+    };
+    Experiment missing = of_steps();
+    missing.family = "missing";
+    missing.input = "rectangles without sides, which rays miss";
+    missing.count = [](std::size_t size, std::uint64_t seed, const CancelFlag* cancel) {
+        return counted_steps(size, 0, seed, cancel);
+    };
+    Experiment memory = of_steps();
+    memory.name = "prop1-memory";
+    memory.family = "scattered";
+    memory.input = "rectangles all over a cube";
+    memory.counted = "bytes of the nested trees";
+    memory.bound = "n log^4 n";
+    memory.source =
+        "VERA 3.3.1, proposition 1: n polylog n; here n (L+1)(L+2)(L+3)(L+4)/24 of L levels";
+    memory.count = [](std::size_t size, std::uint64_t seed, const CancelFlag* cancel) {
+        std::mt19937_64 random(seed);
+        const NestedTrees trees(scattered_rectangles(size, 2, random), few, {}, cancel);
+        const auto n = static_cast<double>(size);
+        return CountedSize{n, static_cast<double>(trees.bytes()), n * places_of_each(n)};
+    };
+    return {meeting, missing, memory};
+}
+
+} // namespace vera

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vera/theory/curve.h"
+#include "vera/theory/curve_plot.h"
+
+#include <cmath>
+#include <set>
+#include <stdexcept>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace vera {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+/// The curve of a power of the size, with a bound of another.
+Experiment power_experiment(double power, double bound) {
+    Experiment experiment;
+    experiment.name = "power";
+    experiment.family = "plain";
+    experiment.counted = "steps";
+    experiment.unit = "things";
+    experiment.bound = "n^b";
+    experiment.source = "nowhere";
+    experiment.first = 16;
+    experiment.last = 4096;
+    experiment.most = 100'000;
+    experiment.count = [=](std::size_t size, std::uint64_t seed, const CancelFlag*) {
+        const auto n = static_cast<double>(size);
+        const double noise = 1 + 0.01 * static_cast<double>(seed % 100) / 100;
+        return CountedSize{n, 5 * noise * std::pow(n, power), std::pow(n, bound)};
+    };
+    return experiment;
+}
+
+Curve counted(const Experiment& experiment) {
+    return counted_curve(experiment, sizes_up_to(experiment, experiment.last));
+}
+
+/// The claims of the paper, and what breaks them.
+TEST(Experiments, GrowAsTheirBoundsSay) {
+    for (const Experiment& experiment : experiments()) {
+        const Curve curve =
+            counted_curve(experiment, sizes_up_to(experiment, experiment.last_in_tests));
+        const std::string name = full_name(experiment);
+        EXPECT_EQ(curve.verdict != Verdict::above, experiment.keeps_bound)
+            << name << ": n^" << curve.growth.exponent << " ± " << curve.growth.half_interval
+            << ", the bound n^" << curve.bound_growth.exponent;
+        EXPECT_LT(curve.excess.uncertainty, 0.25) << name << " tells nothing";
+        RecordProperty(name, exponent_text(curve.growth));
+    }
+}
+
+TEST(Experiments, AreDescribedAndNamedOnce) {
+    std::set<std::string> names;
+    for (const Experiment& experiment : experiments()) {
+        EXPECT_TRUE(names.insert(full_name(experiment)).second) << full_name(experiment);
+        for (const std::string& text :
+             {experiment.name,
+              experiment.family,
+              experiment.input,
+              experiment.counted,
+              experiment.unit,
+              experiment.bound,
+              experiment.source})
+            EXPECT_FALSE(text.empty()) << full_name(experiment);
+        for (const std::size_t last : {experiment.last, experiment.last_in_tests})
+            EXPECT_EQ(problem_with_sizes(experiment, sizes_up_to(experiment, last)), "");
+    }
+}
+
+TEST(Experiments, AreTheSameForTheSameSeed) {
+    const Experiment& experiment = experiments().front();
+    const std::vector<std::size_t> sizes = {20, 30, 40, 50};
+    const Curve curve = counted_curve(experiment, sizes, 7);
+    const Curve again = counted_curve(experiment, sizes, 7);
+    const Curve other = counted_curve(experiment, sizes, 8);
+    bool differs = false;
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+        EXPECT_EQ(curve.points[i].count, again.points[i].count);
+        differs = differs || curve.points[i].count != other.points[i].count;
+    }
+    EXPECT_TRUE(differs);
+}
+
+TEST(Curve, IsBelowAlongOrAboveItsBound) {
+    EXPECT_EQ(counted(power_experiment(0.6, 0.7)).verdict, Verdict::below);
+    EXPECT_EQ(counted(power_experiment(0.7, 0.7)).verdict, Verdict::along);
+    EXPECT_EQ(counted(power_experiment(0.8, 0.7)).verdict, Verdict::above);
+    const Curve curve = counted(power_experiment(0.8, 0.7));
+    EXPECT_NEAR(curve.growth.exponent, 0.8, 0.01);
+    EXPECT_NEAR(curve.bound_growth.exponent, 0.7, 1e-9);
+    EXPECT_NEAR(curve.excess.exponent, 0.1, 0.01);
+    EXPECT_EQ(curve.points.size(), 17U);
+    EXPECT_EQ(curve.fitted().size(), 9U);
+}
+
+TEST(Curve, OfConstantCountsIsNotAboveAConstantBound) {
+    Experiment experiment = power_experiment(0, 0);
+    experiment.count = [](std::size_t size, std::uint64_t, const CancelFlag*) {
+        return CountedSize{static_cast<double>(size), 3, 1};
+    };
+    EXPECT_EQ(counted(experiment).verdict, Verdict::along);
+}
+
+TEST(Curve, HasSizesThatGrowByTwoOrItsRoot) {
+    Experiment experiment = power_experiment(1, 1);
+    EXPECT_THAT(sizes_up_to(experiment, 64), ElementsAre(16, 23, 32, 45, 64));
+    EXPECT_THAT(sizes_up_to(experiment, 50), ElementsAre(16, 23, 32, 45));
+    EXPECT_THAT(sizes_up_to(experiment, 15), ElementsAre());
+    experiment.sizes_a_doubling = 1;
+    EXPECT_THAT(sizes_up_to(experiment, 64), ElementsAre(16, 32, 64));
+}
+
+TEST(Curve, IsRefusedAtSizesThatTellNothing) {
+    const Experiment experiment = power_experiment(1, 1);
+    const auto problem = [&](const std::vector<std::size_t>& sizes) {
+        return problem_with_sizes(experiment, sizes);
+    };
+    EXPECT_EQ(problem({2, 4, 8, 16}), "");
+    EXPECT_EQ(
+        problem({16, 32, 64}),
+        "power/plain is counted at 3 sizes, and an exponent takes 4 or more: name more sizes, or "
+        "let them go on to 48 at least");
+    EXPECT_EQ(
+        problem({16, 32, 32, 64}),
+        "the size 32 stands behind 32: name sizes in ascending order, each once");
+    EXPECT_EQ(problem({1, 2, 3, 4}), "the size 1 is too small: 2 is the least");
+    EXPECT_EQ(
+        problem({16, 32, 64, 100'001}),
+        "power/plain takes at most 100000 things, and 100001 are more than it could count in a "
+        "reasonable time: name smaller sizes");
+    std::vector<std::size_t> many(65);
+    for (std::size_t i = 0; i < many.size(); ++i)
+        many[i] = i + 2;
+    EXPECT_EQ(
+        problem(many), "power/plain is counted at 65 sizes, and 64 are the most: leave some out");
+    EXPECT_THROW(
+        counted_curve(experiment, std::vector<std::size_t>{16, 32}), std::invalid_argument);
+}
+
+TEST(Curve, TellsHowFarItIsAndCanBeStopped) {
+    const Experiment experiment = power_experiment(1, 1);
+    const auto sizes = sizes_up_to(experiment, 128);
+    double last = 0;
+    counted_curve(experiment, sizes, 1, [&](double done) {
+        EXPECT_GE(done, last);
+        last = done;
+    });
+    EXPECT_EQ(last, 1);
+    CancelFlag cancel;
+    cancel.raise();
+    EXPECT_THROW(counted_curve(experiment, sizes, 1, {}, &cancel), Cancelled);
+}
+
+TEST(CurvePlot, ShowsEachCurveAndItsExponent) {
+    const Experiment plain = power_experiment(0.6, 0.7);
+    Experiment other = power_experiment(0.8, 0.7);
+    other.family = "steep & high";
+    const std::vector<Curve> curves = {counted(plain), counted(other)};
+    const std::string svg = curve_plot(curves);
+    EXPECT_THAT(svg, HasSubstr("steep &amp; high"));
+    EXPECT_THAT(svg, HasSubstr("above the bound for certain"));
+    EXPECT_THAT(svg, HasSubstr("<tspan dy=\"-4.2\" font-size=\"9\">0.80</tspan>"));
+    std::size_t points = 0;
+    for (std::size_t at = 0; (at = svg.find("<circle", at)) != std::string::npos; ++at)
+        ++points;
+    EXPECT_EQ(points, 2 * (17U + 1));
+    EXPECT_EQ(svg, curve_plot(curves));
+}
+
+} // namespace
+} // namespace vera
