@@ -53,6 +53,7 @@ public:
             lights.back() = rounded(lights.back());
         }
         std::vector<std::size_t> lit;
+        lit.reserve(lights.size());
         for (const PointLight& light : lights)
             lit.push_back(lit_by(light));
         // Those before show shapes better.
@@ -124,6 +125,7 @@ private:
 
     PointLight falling_off(PointLight light) const {
         std::vector<double> squares;
+        squares.reserve(seen_.size() + 1);
         for (const Vec3 point : seen_)
             squares.push_back(dot(point - light.position, point - light.position));
         if (squares.empty())

@@ -47,6 +47,19 @@ Change trimmed(std::span<const std::string_view> lines, const Change& change) {
     return {change.first + begin, change.last - end, std::move(text)};
 }
 
+/// Adds the change behind the others, if it is one. Lines that follow one another go together, and
+/// then those in their place.
+void add_change(Change change, std::vector<Change>& changes) {
+    if (change.first == change.last && change.text.empty())
+        return;
+    const bool follows = !changes.empty() && changes.back().last == change.first
+        && (changes.back().text.empty() || changes.back().text.ends_with('\n'));
+    if (!follows)
+        return changes.push_back(std::move(change));
+    changes.back().last = change.last;
+    changes.back().text += change.text;
+}
+
 /// Of the edits; those that share a line are one change.
 std::vector<Change> changes_of(
     std::string_view text,
@@ -83,22 +96,8 @@ std::vector<Change> changes_of(
             edits.begin() + static_cast<std::ptrdiff_t>(i));
         for (TextEdit& edit : within)
             edit.offset -= begins[first];
-        Change change = trimmed(
-            lines,
-            {first,
-             last,
-             edited(text.substr(begins[first], begins[last] - begins[first]), within)});
-        if (change.first == change.last && change.text.empty())
-            continue;
-        // Lines that follow one another go together, and then those in their place.
-        const bool follows = !changes.empty() && changes.back().last == change.first
-            && (changes.back().text.empty() || changes.back().text.ends_with('\n'));
-        if (follows) {
-            changes.back().last = change.last;
-            changes.back().text += change.text;
-        } else {
-            changes.push_back(std::move(change));
-        }
+        const std::string_view before = text.substr(begins[first], begins[last] - begins[first]);
+        add_change(trimmed(lines, {first, last, edited(before, within)}), changes);
     }
     return changes;
 }
