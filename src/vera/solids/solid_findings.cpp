@@ -14,7 +14,6 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
-#include <string_view>
 #include <tuple>
 #include <utility>
 
@@ -84,6 +83,18 @@ private:
     };
 
     TriangleRelation relation_of(const Part& a, const Part& b) const;
+
+    /// What the later and the earlier item do, and how many pairs of their triangles do so.
+    using ItemPair = std::tuple<Kind, std::uint32_t, std::uint32_t>;
+    using ItemPairs = std::map<ItemPair, FirstOfMany>;
+
+    void add_parts(std::vector<Part>& parts, std::vector<Box3>& boxes) const;
+    void add_pairs(const ItemPairs& pairs);
+    void add_pair(const ItemPair& pair, const FirstOfMany& faces, const std::string& more);
+
+    bool is_sphere(std::uint32_t item) const {
+        return geometry_.items[item].kind == ItemKind::sphere;
+    }
 
     const Item& item_of(std::uint32_t face) const {
         return geometry_.items[faces_.faces[face].item];
@@ -405,24 +416,11 @@ TriangleRelation GeometryCheck::relation_of(const Part& a, const Part& b) const 
 
 void GeometryCheck::find_pairs(const Progress& progress, const CancelFlag* cancel) {
     constexpr std::size_t most_pairs = 1'000'000;
-    using ItemPair = std::tuple<Kind, std::uint32_t, std::uint32_t>;
-    std::map<ItemPair, FirstOfMany> pairs;
+    ItemPairs pairs;
     std::size_t found = 0;
     std::vector<Part> parts;
     std::vector<Box3> boxes;
-    parts.reserve(faces_.triangles.size() + geometry_.spheres.size());
-    boxes.reserve(parts.capacity());
-    for (std::uint32_t i = 0; i < faces_.triangles.size(); ++i) {
-        const SolidFaces::Triangle& triangle = faces_.triangles[i];
-        const auto [a, b, c] = faces_.corners_of(triangle);
-        parts.push_back({faces_.faces[triangle.face].item, i});
-        boxes.push_back(grown(grown(grown(Box3(), a), b), c));
-    }
-    for (std::uint32_t i = 0; i < geometry_.items.size(); ++i)
-        if (geometry_.items[i].kind == ItemKind::sphere) {
-            parts.push_back({i});
-            boxes.push_back(bounds(geometry_.spheres[geometry_.items[i].index]));
-        }
+    add_parts(parts, boxes);
     const auto face_of = [&](const Part& part) { return faces_.triangles[part.triangle].face; };
     const auto look_at = [&](std::uint32_t i, std::uint32_t k) {
         if (found == most_pairs)
@@ -441,20 +439,33 @@ void GeometryCheck::find_pairs(const Progress& progress, const CancelFlag* cance
             .add(are_faces ? std::max(face_of(parts[i]), face_of(parts[k])) : 0);
     };
     for_each_box_pair(boxes, look_at, progress, cancel);
-    const auto is_sphere = [&](std::uint32_t item) {
-        return geometry_.items[item].kind == ItemKind::sphere;
-    };
-    const auto word_for = [&](std::uint32_t item) {
-        return is_sphere(item) ? "sphere" : "face or mesh";
-    };
+    add_pairs(pairs);
+}
+
+void GeometryCheck::add_parts(std::vector<Part>& parts, std::vector<Box3>& boxes) const {
+    parts.reserve(faces_.triangles.size() + geometry_.spheres.size());
+    boxes.reserve(parts.capacity());
+    for (std::uint32_t i = 0; i < faces_.triangles.size(); ++i) {
+        const SolidFaces::Triangle& triangle = faces_.triangles[i];
+        const auto [a, b, c] = faces_.corners_of(triangle);
+        parts.push_back({faces_.faces[triangle.face].item, i});
+        boxes.push_back(grown(grown(grown(Box3(), a), b), c));
+    }
+    for (std::uint32_t i = 0; i < geometry_.items.size(); ++i)
+        if (is_sphere(i)) {
+            parts.push_back({i});
+            boxes.push_back(bounds(geometry_.spheres[geometry_.items[i].index]));
+        }
+}
+
+void GeometryCheck::add_pairs(const ItemPairs& pairs) {
     // A sphere is told of once: in a heap or a row of them each may meet a hundred.
     std::map<std::uint32_t, std::size_t> pairs_of_sphere;
     for (const auto& [pair, faces] : pairs)
         if (is_sphere(std::get<1>(pair)))
             ++pairs_of_sphere[std::get<1>(pair)];
     for (const auto& [pair, faces] : pairs) {
-        const auto [kind, item, other] = pair;
-        const std::size_t count = faces.count;
+        const std::uint32_t item = std::get<1>(pair);
         std::string more;
         if (is_sphere(item)) {
             const auto untold = pairs_of_sphere.extract(item);
@@ -463,25 +474,32 @@ void GeometryCheck::find_pairs(const Progress& progress, const CancelFlag* cance
             if (untold.mapped() > 1)
                 more = fmt::format(" and {} more", untold.mapped() - 1);
         }
-        SolidFinding& finding = is_sphere(item) || is_sphere(other)
-            ? add(kind, Severity::note, item)
-            : add_of_face(kind, Severity::note, faces.first);
-        finding.other = other;
-        const std::string with = item == other
-            ? fmt::format("itself, at {} pair{} of triangles", count, count == 1 ? "" : "s")
-            : fmt::format(
-                "{} of {}",
-                std::string_view(word_for(item)) == word_for(other)
-                    ? "that"
-                    : fmt::format("the {}", word_for(other)),
-                place_of(other, geometry_.items[item].file));
-        finding.problem = kind == Kind::crossing
-            ? fmt::format("this {} passes through {}{}", word_for(item), with, more)
-            : fmt::format("a part of this face or mesh coincides with {}", with);
-        finding.remedy = kind == Kind::crossing
-            ? ""
-            : "where surfaces coincide, the one that stands earlier is seen";
+        add_pair(pair, faces, more);
     }
+}
+
+/// What two items do, at so many places, and what else the one does.
+void GeometryCheck::add_pair(
+    const ItemPair& pair, const FirstOfMany& faces, const std::string& more) {
+    const auto [kind, item, other] = pair;
+    const auto word_for = [&](std::uint32_t i) { return is_sphere(i) ? "sphere" : "face or mesh"; };
+    SolidFinding& finding = is_sphere(item) || is_sphere(other)
+        ? add(kind, Severity::note, item)
+        : add_of_face(kind, Severity::note, faces.first);
+    finding.other = other;
+    const std::string with = item == other
+        ? fmt::format(
+            "itself, at {} pair{} of triangles", faces.count, faces.count == 1 ? "" : "s")
+        : fmt::format(
+            "{} of {}",
+            is_sphere(item) == is_sphere(other) ? "that" : fmt::format("the {}", word_for(other)),
+            place_of(other, geometry_.items[item].file));
+    finding.problem = kind == Kind::crossing
+        ? fmt::format("this {} passes through {}{}", word_for(item), with, more)
+        : fmt::format("a part of this face or mesh coincides with {}", with);
+    finding.remedy = kind == Kind::crossing
+        ? ""
+        : "where surfaces coincide, the one that stands earlier is seen";
 }
 
 } // namespace
