@@ -170,7 +170,7 @@ private:
 /// No more than 256 colours can need, with long comments: a device has no end.
 std::vector<std::byte> palette_bytes(const std::string& name) {
     constexpr std::size_t most = std::size_t{1} << 20U;
-    const std::vector<std::byte> bytes = file_bytes(name, most + 1);
+    std::vector<std::byte> bytes = file_bytes(name, most + 1);
     if (bytes.size() > most)
         throw InputError({Diagnostic{
             .place = {.file = name},
