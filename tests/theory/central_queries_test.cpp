@@ -132,16 +132,20 @@ TEST(CentralQueries, AnswerWhatRaysThroughEveryPrimitiveMeetFirst) {
         settings.items = 4 + seed;
         settings.curved = false;
         const Scene scene = testing::random_scene(seed, settings);
+        // Anywhere, or on planes on which faces lie and corners of these.
+        const bool is_any = seed % 2 == 0;
         Vec3 center;
         for (std::size_t axis = 0; axis < 3; ++axis)
-            center[axis] = static_cast<double>(random() % 1024) / 128 - 4 + 1.0 / 300;
+            center[axis] = is_any ? static_cast<double>(random() % 1024) / 128 - 4 + 1.0 / 300
+                                  : static_cast<double>(random() % 32) / 4 - 4;
         compare(scene, center, seed, 400, all);
         if (HasFatalFailure())
             return;
     }
     EXPECT_GT(all.directions, 11'000);
-    // Directions of few values meet edges of few values.
-    EXPECT_LE(all.near_borders, all.directions / 50);
+    // From such points directions of few values meet edges.
+    EXPECT_GT(all.near_borders, 0);
+    EXPECT_LE(all.near_borders, all.directions / 100);
 }
 
 TEST(CentralQueries, SeeAClosedBoxFromWithinAndNothingAround) {
