@@ -136,7 +136,9 @@ void PrimitiveQueryIndex::transmittances(
             const Color tab = detail::transmission(*scene_, primitives_[primitive].material);
             primitives_.for_each_crossing_of(
                 primitive, rays[ray], [&](double t, FaceId face) { search.add(t, face, tab); });
-            return search.blocked() ? ended : infinity;
+            if (search.blocked())
+                return ended;
+            return infinity;
         },
         generation,
         counts);

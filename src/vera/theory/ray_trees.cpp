@@ -47,7 +47,7 @@ public:
         , cancel_(cancel) {}
 
     void build() {
-        RayTree& outer = trees_.outer_;
+        RayPointTree& outer = trees_.outer_;
         const std::size_t count = trees_.rays_.size();
         outer.tree = tree_of(
             trees_.x_points_, all_numbers(count), progress_between(progress_, 0, outer_part));
@@ -75,7 +75,7 @@ private:
             EqualPoints::apart);
     }
 
-    void add_inner(RayTree& outer) {
+    void add_inner(RayPointTree& outer) {
         const std::span<const PartitionNode> nodes = outer.tree.nodes();
         const LongLoop loop(nodes.size(), progress_between(progress_, outer_part, 1), cancel_, 1);
         outer.inner.resize(nodes.size());
@@ -86,10 +86,10 @@ private:
         }
     }
 
-    std::unique_ptr<RayTree> inner(const PartitionNode& node) {
-        const RayTree& outer = trees_.outer_;
+    std::unique_ptr<RayPointTree> inner(const PartitionNode& node) {
+        const RayPointTree& outer = trees_.outer_;
         const auto rays = outer.tree.numbers_of(node);
-        auto made = std::make_unique<RayTree>();
+        auto made = std::make_unique<RayPointTree>();
         made->tree = tree_of(trees_.y_points_, Numbers(rays.begin(), rays.end()), {});
         made->first_node = static_cast<std::uint32_t>(trees_.node_count_);
         made->places.resize(rays.size());
@@ -202,14 +202,14 @@ Numbers RayTrees::rays_met(const IsoRectangle& rectangle, QueryCounts* counts) c
 }
 
 std::size_t RayTrees::bytes() const {
-    const auto bytes_of = [](const RayTree& tree) {
+    const auto bytes_of = [](const RayPointTree& tree) {
         return tree.tree.bytes() + tree.places.capacity() * sizeof(std::uint32_t)
-            + tree.inner.capacity() * sizeof(std::unique_ptr<RayTree>);
+            + tree.inner.capacity() * sizeof(std::unique_ptr<RayPointTree>);
     };
     std::size_t bytes = rays_.capacity() * sizeof(SlopedRay)
         + (x_points_.capacity() + y_points_.capacity()) * sizeof(PlanePoint) + bytes_of(outer_);
-    for (const std::unique_ptr<RayTree>& inner : outer_.inner)
-        bytes += inner ? sizeof(RayTree) + bytes_of(*inner) : 0;
+    for (const std::unique_ptr<RayPointTree>& inner : outer_.inner)
+        bytes += inner ? sizeof(RayPointTree) + bytes_of(*inner) : 0;
     return bytes;
 }
 
@@ -229,10 +229,10 @@ double RayTrees::bytes_forecast(std::size_t rays, std::size_t few, TreeKind kind
     double bytes = tree(rays);
     double nodes = 1;
     for (std::size_t size = rays; size > 0; size = (size + 1) / 2, nodes *= 2) {
-        bytes += nodes * sizeof(std::unique_ptr<RayTree>);
+        bytes += nodes * sizeof(std::unique_ptr<RayPointTree>);
         if (size <= few)
             break;
-        bytes += nodes * (sizeof(RayTree) + tree(size));
+        bytes += nodes * (sizeof(RayPointTree) + tree(size));
     }
     return static_cast<double>(rays * each_ray) + bytes * std::pow(depth_factor(kind), 2);
 }

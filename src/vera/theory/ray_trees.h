@@ -28,7 +28,7 @@
 namespace vera {
 
 /// A tree of rays, by one of their two points.
-struct RayTree {
+struct RayPointTree {
     PartitionTree tree;           ///< its points' numbers are those of rays
     std::uint32_t first_node = 0; ///< the number of its root among the nodes of all trees
 
@@ -37,12 +37,12 @@ struct RayTree {
     std::vector<std::uint32_t> places;
 
     /// Of the outer tree: those of its nodes of more than few rays; nothing for others.
-    std::vector<std::unique_ptr<RayTree>> inner;
+    std::vector<std::unique_ptr<RayPointTree>> inner;
 };
 
 /// A node of one of the trees.
 struct RayNode {
-    const RayTree* of = nullptr;
+    const RayPointTree* of = nullptr;
     std::uint32_t index = 0; ///< in its tree
 
     const PartitionNode& node() const { return of->tree.nodes()[index]; }
@@ -95,7 +95,7 @@ public:
         const std::uint32_t place = outer_.places[ray];
         walk(outer_, place, [&](RayNode node) {
             use(node);
-            if (const RayTree* inner = outer_.inner[node.index].get())
+            if (const RayPointTree* inner = outer_.inner[node.index].get())
                 walk(*inner, inner->places[place - node.node().first], use);
         });
     }
@@ -129,7 +129,7 @@ private:
         case Inclusion::none:
             return;
         case Inclusion::all:
-            if (const RayTree* inner = outer_.inner[node.index].get())
+            if (const RayPointTree* inner = outer_.inner[node.index].get())
                 visit_inner(strips.y, {inner, 0}, counts, visitor);
             else
                 visitor.open_in_y(node);
@@ -163,7 +163,7 @@ private:
 
     /// From the root of a tree down to the leaf with what stands at the place.
     template <typename Use>
-    static void walk(const RayTree& tree, std::uint32_t place, const Use& use) {
+    static void walk(const RayPointTree& tree, std::uint32_t place, const Use& use) {
         std::uint32_t index = 0;
         for (;;) {
             use(RayNode{&tree, index});
@@ -179,7 +179,7 @@ private:
     std::vector<SlopedRay> rays_;
     std::vector<PlanePoint> x_points_;
     std::vector<PlanePoint> y_points_;
-    RayTree outer_;
+    RayPointTree outer_;
     std::size_t few_ = 0;
     TreeKind kind_ = TreeKind::conjugation;
     std::size_t node_count_ = 0;
