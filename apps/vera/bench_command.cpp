@@ -6,15 +6,17 @@
 
 namespace vera {
 
-/// vera bench curve ...
+/// vera bench curve ..., vera bench figure ...
 void add_bench_command(CLI::App& app, Console& console) {
-    CLI::App* command =
-        app.add_subcommand("bench", "what the paper proves, counted: growth beside its bound");
+    CLI::App* command = app.add_subcommand(
+        "bench", "what the paper proves, counted and drawn: growth beside bounds, and figures");
     command->require_subcommand(1);
     command->footer("Examples:\n"
                     "  vera bench curve --list\n"
-                    "  vera bench curve conjugation-tree -o nodes.svg");
+                    "  vera bench curve conjugation-tree -o nodes.svg\n"
+                    "  vera bench figure A1 -o graph.svg");
     add_bench_curve(*command, console);
+    add_bench_figure(*command, console);
 }
 
 } // namespace vera

@@ -11,5 +11,6 @@ struct Console;
 
 // The commands of 'vera bench'.
 void add_bench_curve(CLI::App& bench, Console& console);
+void add_bench_figure(CLI::App& bench, Console& console);
 
 } // namespace vera

@@ -30,7 +30,8 @@ TEST(Program, HelpsOnItselfAndEveryCommandWithExamples) {
           "convert --help",
           "solve --help",
           "bench --help",
-          "bench curve --help"}) {
+          "bench curve --help",
+          "bench figure --help"}) {
         const ProgramRun run = run_vera(folder, arguments);
         EXPECT_EQ(run.exit_code, 0) << arguments;
         EXPECT_NE(run.out.find("Examples:"), std::string::npos) << arguments;

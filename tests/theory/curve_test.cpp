@@ -162,7 +162,7 @@ TEST(CurvePlot, ShowsEachCurveAndItsExponent) {
     const std::vector<Curve> curves = {counted(plain), counted(other)};
     const std::string svg = curve_plot(curves);
     EXPECT_THAT(svg, HasSubstr("steep &amp; high"));
-    EXPECT_THAT(svg, HasSubstr("above the bound for certain"));
+    EXPECT_THAT(svg, HasSubstr("above the bound n<tspan"));
     EXPECT_THAT(svg, HasSubstr("<tspan dy=\"-4.2\" font-size=\"9\">0.80</tspan>"));
     std::size_t points = 0;
     for (std::size_t at = 0; (at = svg.find("<circle", at)) != std::string::npos; ++at)

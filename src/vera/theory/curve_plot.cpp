@@ -169,7 +169,7 @@ private:
 
     static std::string power_text(int power) {
         if (power >= 0 && power <= 4)
-            return std::to_string(static_cast<int>(std::pow(10.0, power) + 0.5));
+            return fmt::format("{:.0f}", std::pow(10.0, power));
         return "10^" + std::to_string(power);
     }
 
@@ -202,17 +202,37 @@ private:
             diagram_.circle({left_ + 4, y - 4}, 4, color_of(i));
             diagram_.text({left_ + 16, y}, curve.experiment->family);
             diagram_.text({left_ + 130, y}, "n^" + exponent_text(curve.growth));
-            diagram_.text({left_ + 240, y}, verdict_text(curve.verdict));
+            diagram_.text({left_ + 240, y}, verdict_on_bound(curve));
         }
-        const Experiment& experiment = *curves_.front().experiment;
+        const DiagramText style = {11, diagram_colors::faint};
         diagram_.text(
             {left_, y + 4},
-            "Solid: the power fitted to the full points. Dashed: the bound " + experiment.bound,
-            {11, diagram_colors::faint});
-        diagram_.text(
-            {left_, y + 4 + legend_line},
-            "(" + experiment.source + "), from the first of them on.",
-            {11, diagram_colors::faint});
+            "Solid: the power fitted to the full points. Dashed: the bound, from the first on.",
+            style);
+        diagram_.text({left_, y + 4 + legend_line}, "Bound: " + sources(), style);
+    }
+
+    static std::string verdict_on_bound(const Curve& curve) {
+        const std::string& bound = curve.experiment->bound;
+        switch (curve.verdict) {
+        case Verdict::below:
+            return "below the bound " + bound;
+        case Verdict::along:
+            return "along the bound " + bound;
+        case Verdict::above:
+            break;
+        }
+        return "above the bound " + bound + ", for certain";
+    }
+
+    /// Who says so, each once.
+    std::string sources() const {
+        std::string text;
+        for (const Curve& curve : curves_)
+            if (const std::string& source = curve.experiment->source;
+                text.find(source) == std::string::npos)
+                text += (text.empty() ? "" : "; ") + source;
+        return text;
     }
 
     Diagram& diagram_;

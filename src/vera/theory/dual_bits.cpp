@@ -139,10 +139,10 @@ std::size_t DualBits::bytes() const {
 
 double DualBits::bytes_forecast(std::size_t rectangles) {
     const auto n = static_cast<double>(rectangles);
-    const auto words =
-        static_cast<double>((rectangles + bits_a_word - 1) / bits_a_word * sizeof(Word));
+    const std::size_t words = (rectangles + bits_a_word - 1) / bits_a_word;
+    const double row = static_cast<double>(words) * sizeof(Word);
     return 4 * n * sizeof(std::uint32_t) + 2 * SideProjection::bytes_forecast(rectangles)
-        + 2 * 2 * n * (2 * sizeof(std::size_t) + (4 * n + 1) * words);
+        + 2 * 2 * n * (2 * sizeof(std::size_t) + (4 * n + 1) * row);
 }
 
 } // namespace vera

@@ -106,7 +106,7 @@ std::vector<Experiment> dual_experiments() {
         of_rectangles("prop2-memory", "pairs", "rectangles, and all pairs of their ends");
     memory_pairs.counted = "bytes of all that is built";
     memory_pairs.bound = "n^3 log^2 4n";
-    memory_pairs.source = "VERA 3.3.1, proposition 2: n^3 polylog n";
+    memory_pairs.source = "VERA 3.3.1, proposition 2, which says n^3 polylog n";
     memory_pairs.first = 4;
     memory_pairs.last = 64;
     memory_pairs.last_in_tests = 32;

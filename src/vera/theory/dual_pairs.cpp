@@ -65,7 +65,7 @@ double DualPairs::sampled_bytes_of_trees() const {
 StabbingTree DualPairs::built(std::uint32_t line_x, std::uint32_t line_y) const {
     const PivotRanges& across = along_y_.ranges(line_x);
     const PivotRanges& along = along_x_.ranges(line_y);
-    return StabbingTree(kind_, across.ranges(), across.place_count(), along.ranges());
+    return {kind_, across.ranges(), across.place_count(), along.ranges()};
 }
 
 const StabbingTree& DualPairs::tree(std::uint32_t line_x, std::uint32_t line_y) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/theory/experiment.h"
 
+#include <cmath>
 #include <iterator>
 
 namespace vera {
@@ -14,7 +15,8 @@ std::vector<std::size_t> sizes_up_to(const Experiment& experiment, std::size_t l
     std::vector<std::size_t> sizes;
     for (std::size_t size = experiment.first; size <= last; size *= 2) {
         sizes.push_back(size);
-        const auto between = static_cast<std::size_t>(root_of_2 * static_cast<double>(size) + 0.5);
+        const auto between =
+            static_cast<std::size_t>(std::lround(root_of_2 * static_cast<double>(size)));
         if (experiment.sizes_a_doubling == 2 && between <= last)
             sizes.push_back(between);
     }

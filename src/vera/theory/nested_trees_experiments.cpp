@@ -70,8 +70,7 @@ std::vector<Experiment> nested_trees_experiments() {
     memory.input = "rectangles all over a cube";
     memory.counted = "bytes of the nested trees";
     memory.bound = "n log^4 n";
-    memory.source =
-        "VERA 3.3.1, proposition 1: n polylog n; here n (L+1)(L+2)(L+3)(L+4)/24 of L levels";
+    memory.source = "VERA 3.3.1, proposition 1, which says n polylog n";
     memory.count = [](std::size_t size, std::uint64_t seed, const CancelFlag* cancel) {
         std::mt19937_64 random(seed);
         const NestedTrees trees(scattered_rectangles(size, 2, random), few, {}, cancel);

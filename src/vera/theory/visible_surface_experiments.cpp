@@ -177,7 +177,7 @@ Experiment cells_experiment(const SceneFamily& family) {
     experiment.name = "visible-cells";
     experiment.counted = "steps of the cell raster";
     experiment.bound = std::string("n"); // GCC 12 warns of an overlap of so short a literal
-    experiment.source = "Franklin 1980, expected where what is hidden lies behind larger things";
+    experiment.source = "Franklin 1980, expected and not proven";
     return experiment;
 }
 
