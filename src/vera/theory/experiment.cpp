@@ -29,6 +29,7 @@ std::span<const Experiment> experiments() {
         for (const auto& of_structure :
              {plane_query_experiments,
               nested_trees_experiments,
+              ray_search_experiments,
               dual_experiments,
               visible_surface_experiments}) {
             std::vector<Experiment> some = of_structure();

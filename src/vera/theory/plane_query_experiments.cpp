@@ -5,6 +5,7 @@
 #include "vera/theory/conjugation_tree.h"
 #include "vera/theory/experiment.h"
 #include "vera/theory/kd_tree.h"
+#include "vera/theory/optimal_partition_tree.h"
 #include "vera/theory/plane_points.h"
 
 #include <algorithm>
@@ -21,8 +22,11 @@ constexpr double conjugation_exponent = 0.695;
 
 /// The most nodes that a half-plane of some looks at; each through a point or beside one.
 template <typename Tree>
-CountedSize
-nodes_of_half_planes(const Tree& tree, const PlanePoints& points, std::mt19937_64& random) {
+CountedSize nodes_of_half_planes(
+    const Tree& tree,
+    const PlanePoints& points,
+    std::mt19937_64& random,
+    double exponent = conjugation_exponent) {
     std::uint64_t most = 0;
     for (int i = 0; i < half_planes; ++i) {
         const PlaneDirection normal = some_normal(points, random);
@@ -31,7 +35,7 @@ nodes_of_half_planes(const Tree& tree, const PlanePoints& points, std::mt19937_6
         most = std::max(most, counts.nodes);
     }
     const auto size = static_cast<double>(points.size());
-    return {size, static_cast<double>(most), power(size, conjugation_exponent)};
+    return {size, static_cast<double>(most), power(size, exponent)};
 }
 
 Experiment of_family(const PointFamily& family) {
@@ -62,6 +66,22 @@ Experiment conjugation_tree_experiment(const PointFamily& family) {
     return experiment;
 }
 
+Experiment optimal_tree_experiment(const PointFamily& family) {
+    Experiment experiment = of_family(family);
+    experiment.name = "optimal-tree";
+    experiment.bound = "n^0.5";
+    experiment.source = "Chan 2012";
+    experiment.most = 1'048'576;
+    experiment.count = [points_of = family.points](
+                           std::size_t size, std::uint64_t seed, const CancelFlag* cancel) {
+        std::mt19937_64 random(seed);
+        const PlanePoints points = points_of(size, random);
+        const OptimalPartitionTree tree(points, 1, {}, cancel);
+        return nodes_of_half_planes(tree, points, random, 0.5);
+    };
+    return experiment;
+}
+
 Experiment kd_tree_experiment(const PointFamily& family) {
     Experiment experiment = of_family(family);
     experiment.name = "kd-tree";
@@ -82,9 +102,10 @@ std::vector<Experiment> plane_query_experiments() {
     std::vector<Experiment> found;
     for (const PointFamily& family : point_families())
         found.push_back(conjugation_tree_experiment(family));
-    for (const PointFamily& family : point_families())
-        if (family.points == scattered_points || family.points == thin_diagonal_points)
-            found.push_back(kd_tree_experiment(family));
+    for (const auto& experiment_of : {optimal_tree_experiment, kd_tree_experiment})
+        for (const PointFamily& family : point_families())
+            if (family.points == scattered_points || family.points == thin_diagonal_points)
+                found.push_back(experiment_of(family));
     return found;
 }
 
