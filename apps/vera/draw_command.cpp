@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/base/available_memory.h"
+#include "vera/base/free_room.h"
 #include "vera/base/output_file.h"
 #include "vera/base/progress_part.h"
 #include "vera/base/version.h"
@@ -14,6 +15,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "command.h"
@@ -287,7 +289,7 @@ DrawnScene draw_and_write(
     if (is_exposed)
         expose_as_picture(prepared, console, stages.next(2));
     DrawnScene drawn = draw_scene(
-        prepared.scene,
+        std::move(prepared.scene),
         prepared.camera,
         prepared.settings,
         settings,
@@ -329,6 +331,7 @@ void draw(const Request& request, Console& console) {
     for (const std::string& line : request.lines)
         apply_line_option(line, file_settings.line_styles);
     const std::uint32_t points = whole_of("--verify", request.verify, 0, most_points);
+    give_back_freed_blocks(); // each stage takes about as much as the one before it has freed
     const ThreadLimit limit = thread_limit(request.threads);
     std::optional<MemoryLimit> memory;
     if (!request.memory_limit.empty())

@@ -18,6 +18,7 @@
 #include <random>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/memory_is_watched.h"
@@ -297,9 +298,10 @@ TEST(DrawingMemory, ADrawingTakesWhatIsForetold) {
         const long before = bytes;
         const Facets all = facets(scene, [&](Vec3) { return deviation; });
         const DrawnFaces faces = drawn_faces(scene, all, FaceUnit::plane, camera);
+        const auto facets_there = static_cast<double>(bytes - before);
         ScreenScene on_screen = screen_scene(all, CameraMap(camera), faces.of_facet);
         sort_by_place(on_screen);
-        const auto there = static_cast<double>(bytes - before);
+        const auto all_there = static_cast<double>(bytes - before);
         ScreenScene whole = on_screen;
         const VisiblePieces pieces = whole_pieces(whole).pieces;
         for (const DrawingStyle style :
@@ -317,12 +319,44 @@ TEST(DrawingMemory, ADrawingTakesWhatIsForetold) {
                 write_svg(drawn.drawing, {}, text);
             });
             const auto count = static_cast<double>(pieces.pieces.size());
-            const double told = there
+            const bool forgets_facets = style == DrawingStyle::ids;
+            const double told = all_there - (forgets_facets ? facets_there : 0)
                 + std::max(raster_bytes(counts_of(on_screen)) + piece_bytes(count),
                            drawing_bytes(count, on_screen.triangles.size(), style));
             EXPECT_GE(told, taken / 1.1) << static_cast<int>(style);
             EXPECT_LE(told, taken * 2.5) << static_cast<int>(style);
         }
+    }
+}
+
+TEST(DrawingMemory, ADrawingInIdsHoldsNeitherSceneNorFacetsNorOutlinesAtItsPeak) {
+    if (memory_is_watched())
+        GTEST_SKIP() << "a sanitizer takes memory of its own";
+
+    struct Sample {
+        ScreenScene screen;
+        double most = 0; ///< bytes a triangle
+    };
+
+    const ThreadLimit one(1);
+    PictureSettings picture;
+    picture.width = picture.height = 800;
+    for (const Sample& sample :
+         {Sample{testing::scattered(1, 30'000, screen_size / 100), 660}, // 6 pieces a triangle
+          Sample{testing::terrain(1, 120), 400},
+          Sample{testing::balls(1, 20, 30), 400}}) {
+        const double taken = most_bytes_of([&] {
+            SceneInView view = in_space(sample.screen);
+            DrawSettings settings;
+            settings.style = DrawingStyle::ids;
+            const DrawnScene drawn =
+                draw_scene(std::move(view.scene), view.camera, picture, settings);
+            std::string text;
+            write_svg(drawn.drawing, {}, text);
+            EXPECT_GT(text.size(), sample.screen.triangles.size());
+        });
+        const auto count = static_cast<double>(sample.screen.triangles.size());
+        EXPECT_LT(taken, sample.most * count) << count << " triangles";
     }
 }
 

@@ -144,6 +144,205 @@ TEST(VisibleMap, IsTheSameForAnyNumberOfThreadsAndOrderOfTriangles) {
     EXPECT_NEAR(area_of(visible_map(unsorted, cell_raster(unsorted))) / area, 1, 1e-12);
 }
 
+void expect_same_pieces(
+    const VisiblePieces& found, const VisiblePieces& expected, const std::string& what) {
+    EXPECT_TRUE(found.points == expected.points) << what;
+    EXPECT_TRUE(found.penetrating == expected.penetrating) << what;
+    ASSERT_EQ(found.pieces.size(), expected.pieces.size()) << what;
+    for (std::size_t i = 0; i < found.pieces.size(); ++i) {
+        const VisiblePiece& a = found.pieces[i];
+        const VisiblePiece& b = expected.pieces[i];
+        const UnlitBeside of_a = found.unlit_beside(i);
+        const UnlitBeside of_b = expected.unlit_beside(i);
+        ASSERT_TRUE(
+            a.from == b.from && a.to == b.to && a.edge == b.edge && a.left == b.left
+            && a.right == b.right && of_a.left == of_b.left && of_a.right == of_b.right)
+            << what << ", piece " << i;
+    }
+}
+
+TEST(VisiblePieces, OfACutSceneAreThoseThatWereKeptAndThoseNearTheCuts) {
+    std::size_t rounds = 0;
+    std::size_t kept = 0; // rounds in which not all was near what was cut
+    for (std::uint64_t seed = 0; seed < 60 && !HasFailure(); ++seed) {
+        ScreenScene scene = tangle(seed, 3 + seed % 40, seed % 3 == 0 ? 8 : 0);
+        const ScreenScene beside = scattered(seed, 200, screen_size / 40);
+        const auto first = static_cast<std::uint32_t>(scene.vertices.size());
+        scene.vertices.insert(scene.vertices.end(), beside.vertices.begin(), beside.vertices.end());
+        for (const ScreenTriangle& triangle : beside.triangles) {
+            const auto [a, b, c] = triangle.vertices;
+            add_triangle(scene, {first + a, first + b, first + c}, 1000 + triangle.source);
+        }
+        VisiblePieces pieces = cell_raster(scene);
+        for (int round = 0; round < 3 && !pieces.penetrating.empty(); ++round, ++rounds) {
+            const SceneChange change = cut_penetrations(scene, pieces.penetrating);
+            kept += change.triangles.size() < scene.triangles.size() / 2 ? 1 : 0;
+            pieces = cell_raster_after(change, std::move(pieces), scene);
+            expect_same_pieces(pieces, cell_raster(scene), "seed " + std::to_string(seed));
+        }
+    }
+    EXPECT_GT(rounds, 60U);
+    EXPECT_GT(kept, 30U);
+}
+
+TEST(VisiblePieces, OfASceneWithShadowsAreThoseThatWereKeptAndThoseNearThem) {
+    for (std::uint64_t seed = 0; seed < 60 && !HasFailure(); ++seed) {
+        ScreenScene scene = scattered(seed, 5 + 10 * (seed % 20), screen_size / 8);
+        VisiblePieces before = cell_raster(scene);
+        const std::size_t surfaces = scene.triangles.size();
+        SceneChange change;
+        if (seed % 4 == 0) // without shadows, where the light reaches none of a source
+            scene.unlit = {0, 1, 0, 3};
+        for (std::size_t i = 0; i < surfaces; i += 1 + seed % 7) {
+            const ScreenTriangle on = scene.triangles[i];
+            ScreenVertex middle = corners_of(scene, on)[2];
+            middle.point.x = (middle.point.x + corners_of(scene, on)[0].point.x) / 2;
+            scene.vertices.push_back(middle);
+            const auto last = static_cast<std::uint32_t>(scene.vertices.size() - 1);
+            if (seed % 4 != 0)
+                add_part(
+                    scene,
+                    {on.vertices[0], on.vertices[1], last},
+                    on,
+                    static_cast<std::uint32_t>(seed % 2));
+        }
+        for (std::size_t i = surfaces; i < scene.triangles.size(); ++i)
+            change.triangles.push_back(static_cast<std::uint32_t>(i));
+        expect_same_pieces(
+            cell_raster_after(change, std::move(before), scene),
+            cell_raster(scene),
+            "seed " + std::to_string(seed));
+    }
+}
+
+/// The ways along pieces, way by way as they are explained: number 2 i goes along piece i, and the
+/// next one back.
+class PlainWays {
+public:
+    PlainWays(const ScreenScene& scene, const VisiblePieces& pieces)
+        : scene_(scene)
+        , pieces_(pieces) {}
+
+    std::size_t count() const { return 2 * pieces_.pieces.size(); }
+
+    std::uint32_t from(std::size_t way) const {
+        const VisiblePiece& piece = pieces_.pieces[way / 2];
+        return way % 2 == 0 ? piece.from : piece.to;
+    }
+
+    ScreenStep direction(std::size_t way) const {
+        const ScreenEdges::Edge& edge = pieces_.pieces[way / 2].edge;
+        const ScreenPoint begin = scene_.vertices[edge.begin].point;
+        const ScreenPoint end = scene_.vertices[edge.end].point;
+        return way % 2 == 0 ? step(begin, end) : step(end, begin);
+    }
+
+    /// What is seen on the left.
+    std::optional<VisibleMap::Region> region(std::size_t way) const {
+        const VisiblePiece& piece = pieces_.pieces[way / 2];
+        const UnlitBeside unlit = pieces_.unlit_beside(way / 2);
+        const std::uint32_t triangle = way % 2 == 0 ? piece.left : piece.right;
+        if (triangle == no_triangle)
+            return std::nullopt;
+        return VisibleMap::Region{
+            scene_.triangles[triangle].source, way % 2 == 0 ? unlit.left : unlit.right};
+    }
+
+    /// Of those that leave the way's end, the first to the right of the way back.
+    std::size_t following(std::size_t way) const {
+        const std::size_t back = way ^ 1U;
+        std::size_t best = back;
+        double least = 7; // more than a whole turn
+        for (std::size_t i = 0; i < count(); ++i) {
+            const double turn = angle(direction(back)) - angle(direction(i));
+            const double to_the_right = turn <= 0 ? turn + 2 * std::acos(-1.0) : turn;
+            if (i != back && from(i) == from(back) && to_the_right < least) {
+                least = to_the_right;
+                best = i;
+            }
+        }
+        return best;
+    }
+
+private:
+    static double angle(ScreenStep a) {
+        return std::atan2(static_cast<double>(a.y), static_cast<double>(a.x));
+    }
+
+    const ScreenScene& scene_;
+    const VisiblePieces& pieces_;
+};
+
+/// The rings of a map one after the other, region by region, and what is beyond each side.
+struct PlainRing {
+    VisibleMap::Region region;
+    std::vector<std::uint32_t> vertices;
+    std::vector<std::optional<VisibleMap::Region>> across;
+
+    friend bool operator==(const PlainRing&, const PlainRing&) = default;
+};
+
+std::vector<PlainRing> plain_rings(const ScreenScene& scene, const VisiblePieces& pieces) {
+    const PlainWays ways(scene, pieces);
+    std::vector<PlainRing> rings;
+    std::vector<bool> done(ways.count());
+    for (std::size_t first = 0; first < ways.count(); ++first) {
+        if (done[first] || !ways.region(first))
+            continue;
+        PlainRing& ring = rings.emplace_back();
+        ring.region = *ways.region(first);
+        for (std::size_t way = first; !done[way];) {
+            done[way] = true;
+            const std::size_t next = ways.following(way);
+            if (cross(ways.direction(way), ways.direction(next)) != 0
+                || ways.region(way ^ 1U) != ways.region(next ^ 1U)) {
+                ring.vertices.push_back(ways.from(next));
+                ring.across.push_back(ways.region(next ^ 1U));
+            }
+            way = next;
+        }
+    }
+    std::stable_sort(rings.begin(), rings.end(), [](const PlainRing& a, const PlainRing& b) {
+        return a.region < b.region;
+    });
+    return rings;
+}
+
+std::vector<PlainRing> rings_of(const VisibleMap& map) {
+    std::vector<PlainRing> rings;
+    std::size_t place = 0;
+    for (const VisibleMap::Ring& ring : map.rings) {
+        EXPECT_EQ(ring.first, place) << "one ring's vertices are behind the other's";
+        EXPECT_EQ(ring.source, map.regions[ring.region].source);
+        PlainRing& plain = rings.emplace_back();
+        plain.region = map.regions[ring.region];
+        for (; place < ring.first + ring.count; ++place) {
+            plain.vertices.push_back(map.ring_vertices[place]);
+            const std::uint32_t across = map.ring_across[place];
+            plain.across.push_back(
+                across == no_region ? std::nullopt : std::optional(map.regions[across]));
+        }
+    }
+    EXPECT_EQ(place, map.ring_vertices.size());
+    return rings;
+}
+
+TEST(VisibleMap, HasTheRingsThatAPlainWalkFinds) {
+    std::size_t rings = 0;
+    for (std::uint64_t seed = 0; seed < 120 && !HasFailure(); ++seed) {
+        ScreenScene scene = seed % 2 == 0
+            ? layers(seed, 1 + seed % 25, std::int32_t{1} << (1 + seed % 4))
+            : scattered(seed, 5 + seed % 40, screen_size / 4);
+        const VisiblePieces pieces = cell_raster(scene);
+        const VisibleMap map = visible_map(scene, pieces);
+        ASSERT_EQ(map.joined, 0U);
+        const std::vector<PlainRing> expected = plain_rings(scene, pieces);
+        EXPECT_TRUE(rings_of(map) == expected) << "seed " << seed;
+        rings += expected.size();
+    }
+    EXPECT_GT(rings, 1000U);
+}
+
 TEST(VisibleMap, OfNothingIsEmptyAndOfOneTriangleIsItself) {
     EXPECT_TRUE(visible_map({}, cell_raster({})).rings.empty());
     ScreenScene scene;

@@ -103,8 +103,23 @@ struct Stroke {
     std::vector<DrawingArc> arcs = {}; ///< by segment, each segment at most once
 };
 
-/// A vector picture: the background, on it the outlines in their order, on them the lines, one
-/// class after the other. Texts are UTF-8; what is not is replaced.
+/// Areas that have their corners in common, as the regions of a map do: each of one colour, its
+/// rings as those of a FilledOutline, and without all else that one has. A tenth of the memory.
+struct SharedAreas {
+    std::vector<DrawingPoint> places;
+    std::vector<std::uint32_t> corners;   ///< places, one ring's behind the other's
+    std::vector<std::uint32_t> ring_ends; ///< of each ring, behind its last one of corners
+    std::vector<std::uint32_t> area_ends; ///< of each area, behind its last one of ring_ends
+    std::vector<DrawingColor> colors;     ///< of each area
+
+    std::size_t count() const { return colors.size(); }
+};
+
+/// One of the areas by itself.
+FilledOutline outline_of(const SharedAreas& areas, std::size_t number);
+
+/// A vector picture: the background, on it the outlines in their order, on them the areas, on them
+/// the lines, one class after the other. Texts are UTF-8; what is not is replaced.
 struct Drawing {
     double width = 1; ///< in pixels, positive
     double height = 1;
@@ -112,6 +127,7 @@ struct Drawing {
     std::string description = {};
     std::optional<DrawingColor> background = {};
     std::vector<FilledOutline> fills = {};
+    SharedAreas areas = {};
     std::vector<Stroke> strokes = {};
 };
 

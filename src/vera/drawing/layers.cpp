@@ -69,6 +69,7 @@ Layers layers(
             result.fills[i].seams = joined_seams(fill, lattice);
     });
     std::erase_if(result.fills, [](const FilledPath& path) { return path.rings.empty(); });
+    result.is_filled = !result.fills.empty();
     PassedPoints passed;
     for (const FilledPath& path : result.fills)
         passed.add(path.seams);
@@ -80,8 +81,26 @@ Layers layers(
         draw_ends_back(result.fills[i].seams, result.fills[i].rings, passed, seam_width);
     }
 
+    // Of the first area most often: it takes no time.
+    for (std::size_t i = 0; !result.is_filled && i < drawing.areas.count(); ++i)
+        result.is_filled = !snapped_rings(outline_of(drawing.areas, i), lattice).empty();
     result.lines = line_layers(drawing.strokes, settings, lattice, stages.next(1), cancel);
     return result;
+}
+
+AreaPaths
+area_paths(const SharedAreas& areas, const Lattice& lattice, std::size_t first, std::size_t last) {
+    AreaPaths paths;
+    paths.outlines.resize(last - first);
+    paths.fills.resize(last - first);
+    parallel_ranges(last - first, 256, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            paths.outlines[i] = outline_of(areas, first + i);
+            paths.fills[i] = {&paths.outlines[i], snapped_rings(paths.outlines[i], lattice), {}};
+        }
+    });
+    std::erase_if(paths.fills, [](const FilledPath& path) { return path.rings.empty(); });
+    return paths;
 }
 
 PageSize page_size(const Drawing& drawing, const DrawingSettings& settings) {

@@ -6,6 +6,9 @@
 #include "vera/drawing/drawing_file.h"
 #include "vera/drawing/snapped_path.h"
 
+#include <algorithm>
+#include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -26,10 +29,11 @@ struct LineLayer {
 };
 
 /// The drawing in the order in which it is painted: each outline and right behind it the lines that
-/// cover its seams, then the layers of lines. Refers to the Drawing.
+/// cover its seams, the shared areas, then the layers of lines. Refers to the Drawing.
 struct Layers {
-    std::vector<FilledPath> fills;
+    std::vector<FilledPath> fills; ///< without the areas, which take less room as they are
     std::vector<LineLayer> lines;
+    bool is_filled = false; ///< something is left of an outline or an area
 };
 
 /// Throws Cancelled.
@@ -39,6 +43,33 @@ Layers layers(
     const Lattice& lattice,
     const Progress& progress = {},
     const CancelFlag* cancel = nullptr);
+
+/// Some of the shared areas, those of which something is left, as filled paths.
+struct AreaPaths {
+    std::vector<FilledOutline> outlines;
+    std::vector<FilledPath> fills; ///< refer to the outlines
+};
+
+/// Of the areas from number first up to last.
+AreaPaths
+area_paths(const SharedAreas& areas, const Lattice& lattice, std::size_t first, std::size_t last);
+
+/// Calls visit(done, span of FilledPaths) for all that is filled in its order, and tells with how
+/// many outlines and areas it is done: so few at a time that what is made of them takes no room.
+template <typename Visit>
+void for_each_block_of_fills(
+    const Drawing& drawing, const Layers& layers, const Lattice& lattice, const Visit& visit) {
+    constexpr std::size_t block = 4096;
+    const std::size_t fills = layers.fills.size();
+    for (std::size_t first = 0; first < fills; first += block)
+        visit(first, std::span(layers.fills).subspan(first, std::min(block, fills - first)));
+    const std::size_t areas = drawing.areas.count();
+    for (std::size_t first = 0; first < areas; first += block) {
+        const AreaPaths paths =
+            area_paths(drawing.areas, lattice, first, std::min(areas, first + block));
+        visit(fills + first, std::span(paths.fills));
+    }
+}
 
 /// What people call the layer of the outlines.
 inline constexpr char fills_name[] = "Fills";

@@ -140,7 +140,7 @@ private:
 
 std::vector<std::string> layer_names(const Layers& layers) {
     std::vector<std::string> names;
-    if (!layers.fills.empty())
+    if (layers.is_filled)
         names.emplace_back(fills_name);
     for (const LineLayer& layer : layers.lines)
         names.push_back(layer.name);
@@ -166,18 +166,21 @@ std::string page_content(
     page.begin_page(page_size(drawing, settings), drawing.width);
     if (drawing.background)
         page.fill_picture(drawing);
-    if (!layers.fills.empty()) {
+    if (layers.is_filled) {
         page.write(marks.begin(number, names[number]));
         ++number;
         page.set_pen(settings.seam_width, butt_cap, {});
-        const LongLoop loop(layers.fills.size(), stages.next(1), cancel, 256);
-        for (std::size_t i = 0; i < layers.fills.size(); ++i) {
-            loop.turn(i);
-            const FilledPath& fill = layers.fills[i];
-            page.fill(fill.rings, *fill.outline);
-            if (!fill.seams.empty())
-                page.stroke_seams(fill.seams, *fill.outline);
-        }
+        const LongLoop loop(
+            layers.fills.size() + drawing.areas.count(), stages.next(1), cancel, 256);
+        for_each_block_of_fills(
+            drawing, layers, lattice, [&](std::size_t done, std::span<const FilledPath> fills) {
+                for (const FilledPath& fill : fills) {
+                    loop.turn(done++);
+                    page.fill(fill.rings, *fill.outline);
+                    if (!fill.seams.empty())
+                        page.stroke_seams(fill.seams, *fill.outline);
+                }
+            });
         page.write(marks.end);
     }
     for (const LineLayer& layer : layers.lines) {

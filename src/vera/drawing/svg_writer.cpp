@@ -5,10 +5,12 @@
 #include "vera/drawing/layers.h"
 #include "vera/drawing/paints.h"
 
-#include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -47,7 +49,7 @@ public:
         // Before the outlines take theirs, so that a layer's id is always the same.
         if (drawing.background)
             background_id_ = ids_.take("background");
-        if (!layers_.fills.empty())
+        if (layers_.is_filled)
             fills_id_ = ids_.take("fills");
         for (const LineLayer& layer : layers_.lines)
             line_ids_.push_back(ids_.take(std::string(name_of(layer.style.line_class)) + "-lines"));
@@ -66,7 +68,7 @@ public:
                 length(drawing_.width),
                 length(drawing_.height),
                 css_color(*drawing_.background));
-        if (!layers_.fills.empty())
+        if (layers_.is_filled)
             write_fills();
         for (std::size_t i = 0; i < layers_.lines.size(); ++i)
             write_lines(layers_.lines[i], line_ids_[i]);
@@ -188,29 +190,26 @@ private:
             "<g id=\"{}\" inkscape:groupmode=\"layer\" inkscape:label=\"{}\">\n",
             fills_id_,
             fills_name);
-        const std::string* group = nullptr;
+        std::optional<std::string> group;
         const auto end_group = [&] {
             if (group && !group->empty())
                 text_ += "</g>\n";
         };
-        // The paths in several threads, of so many fills at a time that they take no room.
-        constexpr std::size_t block = 4096;
-        std::vector<FillData> data;
-        const LongLoop loop(layers_.fills.size(), stages_.next(1), cancel_, block);
-        for (std::size_t i = 0; i < layers_.fills.size(); ++i) {
-            loop.turn(i);
-            if (i % block == 0)
-                data = fill_data(std::span(layers_.fills)
-                                     .subspan(i)
-                                     .first(std::min(block, layers_.fills.size() - i)));
-            const FilledPath& fill = layers_.fills[i];
-            if (!group || fill.outline->group != *group) {
-                end_group();
-                group = &fill.outline->group;
-                begin_group(*group);
-            }
-            write_fill(fill, data[i % block]);
-        }
+        const LongLoop loop(
+            layers_.fills.size() + drawing_.areas.count(), stages_.next(1), cancel_, 256);
+        for_each_block_of_fills(
+            drawing_, layers_, lattice_, [&](std::size_t done, std::span<const FilledPath> fills) {
+                const std::vector<FillData> data = fill_data(fills);
+                for (std::size_t i = 0; i < fills.size(); ++i) {
+                    loop.turn(done + i);
+                    if (!group || fills[i].outline->group != *group) {
+                        end_group();
+                        group = fills[i].outline->group;
+                        begin_group(*group);
+                    }
+                    write_fill(fills[i], data[i]);
+                }
+            });
         end_group();
         text_ += "</g>\n";
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/cell_raster.h"
 
+#include "vera/base/free_room.h"
 #include "vera/base/long_loop.h"
 #include "vera/base/progress_part.h"
 #include "vera/visible/drawing_memory.h"
@@ -142,11 +143,13 @@ CellRaster raster_of(
     next_stage();
     raster.edges = screen_edges(scene);
     next_stage();
-    raster.shadowed_source = shadowed_sources(scene, raster.edges);
     const std::vector<EdgeNeighbours> neighbours = edge_neighbours(scene, raster.edges);
-    raster.is_inner.resize(neighbours.size());
-    for (std::size_t i = 0; i < neighbours.size(); ++i)
-        raster.is_inner[i] = is_inner(scene, neighbours[i]) ? 1 : 0;
+    if (std::ranges::any_of(scene.triangles, &ScreenTriangle::is_shadow)) {
+        raster.shadowed = shadowed_sources(scene, raster.edges);
+        raster.inner.resize(neighbours.size());
+        for (std::size_t i = 0; i < neighbours.size(); ++i)
+            raster.inner[i] = is_inner(scene, neighbours[i]) ? 1 : 0;
+    }
     next_stage();
     AskedCells asked;
     if (change != nullptr)
@@ -215,7 +218,7 @@ auto first_piece_of(const std::vector<VisiblePiece>& before, ScreenEdges::Edge e
 }
 
 /// How many of the pieces before are those of the edge.
-std::size_t kept_pieces(const std::vector<VisiblePiece>& before, ScreenEdges::Edge edge) {
+std::size_t count_pieces_of(const std::vector<VisiblePiece>& before, ScreenEdges::Edge edge) {
     std::size_t count = 0;
     for (auto i = first_piece_of(before, edge); i != before.end() && i->edge == edge; ++i)
         ++count;
@@ -281,7 +284,7 @@ Expected expected(
             const std::uint32_t edge = marked[i].edge;
             if (!raster.is_near_change.empty() && raster.is_near_change[edge] == 0) {
                 found[i].pieces =
-                    static_cast<double>(kept_pieces(before, raster.edges.edges[edge]));
+                    static_cast<double>(count_pieces_of(before, raster.edges.edges[edge]));
                 continue;
             }
             VisiblePieces pieces;
@@ -317,11 +320,11 @@ void check_memory(
         expect(pieces);
 }
 
-/// Follows the edges that are near what was changed, or all, and keeps the pieces of the others.
-/// What is found lies in parts, one behind the other.
+/// Follows the edges that are near what was changed, or all. What is found lies in parts, one
+/// behind the other.
 std::vector<VisiblePieces> follow_edges(
     const CellRaster& raster,
-    const VisiblePieces& before,
+    const std::vector<VisiblePiece>& before,
     const ExpectPieces& expect,
     const Progress& progress,
     const CancelFlag* cancel,
@@ -330,27 +333,17 @@ std::vector<VisiblePieces> follow_edges(
     const std::vector<ScreenEdges::Edge>& edges = raster.edges.edges;
     std::vector<VisiblePieces> parts((edges.size() + part - 1) / part);
     EdgeSweeps sweeps(raster);
-    check_memory(raster, before.pieces, expect, cancel);
+    check_memory(raster, before, expect, cancel);
     std::mutex mutex;
     std::size_t done = 0;
     const auto follow_part = [&](std::size_t number, EdgeSweep& sweep) {
         const std::size_t end = std::min(edges.size(), (number + 1) * part);
-        auto kept = first_piece_of(before.pieces, edges[number * part]);
         VisiblePieces found;
         for (std::size_t i = number * part; i < end; ++i) {
             if (i % 16 == 0)
                 stop_if_raised(cancel);
-            const bool is_followed = raster.is_near_change.empty() || raster.is_near_change[i] != 0;
-            if (is_followed)
+            if (raster.is_near_change.empty() || raster.is_near_change[i] != 0)
                 sweep.follow(static_cast<std::uint32_t>(i), found);
-            for (; kept != before.pieces.end() && kept->edge <= edges[i]; ++kept)
-                if (!is_followed && kept->edge == edges[i]) {
-                    VisiblePiece& piece = found.pieces.emplace_back(*kept);
-                    for (std::uint32_t* point : {&piece.from, &piece.to}) {
-                        found.points.push_back(before.points[*point]);
-                        *point = static_cast<std::uint32_t>(found.points.size() - 1);
-                    }
-                }
         }
         // In as little room as it takes, with each point once, since all parts are there at a time.
         VisiblePieces& result = parts[number];
@@ -362,6 +355,7 @@ std::vector<VisiblePieces> follow_edges(
             result.pieces.push_back(piece);
         }
         result.points.shrink_to_fit();
+        result.unlit = std::move(found.unlit);
         result.penetrating = std::move(found.penetrating);
     };
     parallel_ranges(parts.size(), 1, [&](std::size_t first, std::size_t last) {
@@ -400,7 +394,7 @@ std::vector<RationalPoint> joined_points(
             result[i] = *points[firsts[i]];
     });
     for (VisiblePieces& part : parts)
-        part.points = {};
+        free_room(part.points);
     return result;
 }
 
@@ -423,9 +417,85 @@ VisiblePieces joined(std::vector<VisiblePieces> parts) {
             piece.to = number(piece.to);
             result.pieces.push_back(piece);
         }
+        result.unlit.insert(result.unlit.end(), part.unlit.begin(), part.unlit.end());
         result.penetrating.insert(
             result.penetrating.end(), part.penetrating.begin(), part.penetrating.end());
     }
+    return result;
+}
+
+/// Which of the pieces before are those of edges that are there still, and far from the change.
+std::vector<std::uint8_t>
+kept_pieces(const CellRaster& raster, const std::vector<VisiblePiece>& before) {
+    const std::vector<ScreenEdges::Edge>& edges = raster.edges.edges;
+    std::vector<std::uint8_t> is_kept(before.size());
+    std::size_t edge = 0;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        while (edge < edges.size() && edges[edge] < before[i].edge)
+            ++edge;
+        const bool is_there = edge < edges.size() && edges[edge] == before[i].edge;
+        is_kept[i] = is_there && raster.is_near_change[edge] == 0 ? 1 : 0;
+    }
+    return is_kept;
+}
+
+/// Of each point its number among the others, or PointNumbers::none.
+std::vector<std::uint32_t>
+numbers_among(const std::vector<RationalPoint>& points, std::vector<RationalPoint> others) {
+    const PointNumbers numbers(others, others.size());
+    std::vector<std::uint32_t> result(points.size());
+    parallel_ranges(points.size(), 4096, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+            result[i] = numbers.find(points[i]);
+    });
+    return result;
+}
+
+/// The kept pieces of those before and the ones that were found, which are of other edges, as one
+/// list. All that takes long is done of the found ones alone.
+VisiblePieces
+merged(const VisiblePieces& before, const std::vector<std::uint8_t>& is_kept, VisiblePieces found) {
+    constexpr std::uint32_t none = PointNumbers::none;
+    const std::vector<std::uint32_t> among_found = numbers_among(before.points, found.points);
+    std::vector<std::uint32_t> of_before(before.points.size(), none);
+    std::vector<std::uint32_t> of_found(found.points.size(), none);
+    VisiblePieces result;
+    result.pieces.reserve(before.pieces.size() + found.pieces.size());
+    // In the order in which the pieces have them, as if all had been followed.
+    const auto numbered = [&](std::uint32_t& number, const RationalPoint& point) {
+        if (number == none) {
+            number = static_cast<std::uint32_t>(result.points.size());
+            result.points.push_back(point);
+        }
+        return number;
+    };
+    const auto add = [&](const VisiblePieces& from, std::size_t i, const auto& number_of) {
+        VisiblePiece piece = from.pieces[i];
+        piece.from = number_of(piece.from);
+        piece.to = number_of(piece.to);
+        result.pieces.push_back(piece);
+        if (!before.unlit.empty() || !found.unlit.empty())
+            result.unlit.push_back(from.unlit_beside(i));
+    };
+    std::size_t next = 0;
+    const auto add_found_before = [&](const ScreenEdges::Edge* edge) {
+        for (; next < found.pieces.size() && (edge == nullptr || found.pieces[next].edge < *edge);
+             ++next)
+            add(found, next, [&](std::uint32_t point) {
+                return numbered(of_found[point], found.points[point]);
+            });
+    };
+    for (std::size_t i = 0; i < before.pieces.size(); ++i) {
+        if (is_kept[i] == 0)
+            continue;
+        add_found_before(&before.pieces[i].edge);
+        add(before, i, [&](std::uint32_t point) {
+            const std::uint32_t same = among_found[point];
+            return numbered(same == none ? of_before[point] : of_found[same], before.points[point]);
+        });
+    }
+    add_found_before(nullptr);
+    result.penetrating = std::move(found.penetrating);
     return result;
 }
 
@@ -500,23 +570,25 @@ VisiblePieces cell_raster_after(
     const auto unlit = [&](std::uint32_t triangle) {
         return triangle == no_triangle ? 0 : scene.unlit_of(scene.triangles[triangle].source);
     };
-    for (VisiblePiece& piece : before.pieces) {
-        piece.left_unlit = unlit(piece.left);
-        piece.right_unlit = unlit(piece.right);
-    }
+    before.unlit.clear();
     std::vector<VisiblePieces> parts;
+    std::vector<std::uint8_t> is_kept;
     {
         const CellRaster raster = raster_of(scene, &change, progress, cancel);
+        if (raster.may_be_unlit())
+            for (const VisiblePiece& piece : before.pieces)
+                before.unlit.push_back({unlit(piece.left), unlit(piece.right)});
+        is_kept = kept_pieces(raster, before.pieces);
         CellCounts uncounted;
         parts = follow_edges(
             raster,
-            before,
+            before.pieces,
             expect,
             progress_between(progress, part_of_preparation, 1),
             cancel,
             uncounted);
     }
-    VisiblePieces result = joined(std::move(parts));
+    VisiblePieces result = merged(before, is_kept, joined(std::move(parts)));
     for (const auto& [a, b] : before.penetrating)
         if (is_changed[a] == 0 && is_changed[b] == 0)
             result.penetrating.emplace_back(a, b);

@@ -24,17 +24,26 @@ struct VisiblePiece {
     ScreenEdges::Edge edge;
     std::uint32_t left = no_triangle; ///< which are seen beside it
     std::uint32_t right = no_triangle;
-    LightSet left_unlit = 0; ///< the lights that do not reach them there
-    LightSet right_unlit = 0;
+};
+
+/// The lights that do not reach what is seen beside a piece.
+struct UnlitBeside {
+    LightSet left = 0;
+    LightSet right = 0;
 };
 
 /// What is seen of a scene: all pieces of edges that part what is seen, each once.
 struct VisiblePieces {
     std::vector<RationalPoint> points; ///< at which pieces end, each once
     std::vector<VisiblePiece> pieces;  ///< by their edges' vertices
+    std::vector<UnlitBeside> unlit;    ///< of each piece; or empty: all lights reach everything
     /// Triangles that pass through each other where both are seen, in ascending order, each pair
     /// once. Where there are any, the pieces need not close to outlines: see cut_penetrations().
     std::vector<std::pair<std::uint32_t, std::uint32_t>> penetrating;
+
+    UnlitBeside unlit_beside(std::size_t piece) const {
+        return unlit.empty() ? UnlitBeside{} : unlit[piece];
+    }
 };
 
 /// Told about how many pieces there will be before they are found; throws where they are too many.

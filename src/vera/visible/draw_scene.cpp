@@ -6,6 +6,7 @@
 #include "vera/base/progress_part.h"
 #include "vera/visible/drawing_memory.h"
 #include "vera/visible/drawn_faces.h"
+#include "vera/visible/numbered_areas.h"
 #include "vera/visible/outline_fills.h"
 #include "vera/visible/outline_strokes.h"
 #include "vera/visible/penetrations.h"
@@ -91,6 +92,7 @@ stage_times(const Scene& scene, const PictureSettings& picture, const DrawSettin
 /// What is to be drawn, and what all stages have in common.
 struct Request {
     const Scene& scene;
+    Scene* given; ///< the same, where it need not be kept; or null
     const Camera& camera;
     const PictureSettings& picture;
     const DrawSettings& settings;
@@ -98,6 +100,8 @@ struct Request {
     const CameraMap camera_map;
     StageProgress stages;
     const CancelFlag* cancel;
+
+    bool is_in_numbers() const { return settings.style == DrawingStyle::ids; }
 
     Progress next_stage(double time) {
         stop_if_raised(cancel);
@@ -116,6 +120,10 @@ struct Request {
 struct SeenScene {
     Facets facets;
     DrawnFaces faces;
+    /// Of the faces, in style ids alone: all else of facets and faces is forgotten there, since
+    /// what is seen needs their room.
+    std::vector<std::uint64_t> primitives;
+    std::size_t facet_count = 0;
     ScreenScene screen; ///< whose sources are the faces
     ScreenScene uncut;  ///< the same before what penetrates was cut, where hidden lines are drawn
     WholePieces whole;
@@ -123,7 +131,6 @@ struct SeenScene {
 
 SeenScene seen_scene(Request& request) {
     const PictureSettings& picture = request.picture;
-    const bool is_in_numbers = request.settings.style == DrawingStyle::ids;
     request.next_stage(request.times.facets);
     SeenScene seen;
     const auto deviation = [&](Vec3 point) {
@@ -131,21 +138,31 @@ SeenScene seen_scene(Request& request) {
             * request.camera_map.size_of_pixel(picture.width, picture.height, point);
     };
     seen.facets = facets(request.scene, deviation, request.cancel);
-    if (is_in_numbers)
+    seen.facet_count = seen.facets.triangles.size();
+    if (request.is_in_numbers())
         check_numbers(seen.facets);
     // Shadows fall on plane faces; these become larger ones after.
     seen.faces = drawn_faces(
         request.scene,
         seen.facets,
-        is_in_numbers ? FaceUnit::primitive : FaceUnit::plane,
+        request.is_in_numbers() ? FaceUnit::primitive : FaceUnit::plane,
         request.camera,
         request.cancel);
+    if (request.is_in_numbers()) {
+        seen.primitives = primitives_of(seen.facets, seen.faces);
+        if (request.given != nullptr && !request.settings.check)
+            *request.given = {};
+    }
     seen.screen = screen_scene(
         seen.facets,
         request.camera_map,
         seen.faces.of_facet,
         std::numeric_limits<double>::infinity(),
         request.cancel);
+    if (request.is_in_numbers()) {
+        seen.facets = {};
+        seen.faces = {};
+    }
     sort_by_place(seen.screen, request.cancel);
     if (request.settings.style == DrawingStyle::hidden_lines)
         seen.uncut = seen.screen;
@@ -190,11 +207,18 @@ void make_faces_smooth(const Request& request, SeenScene& seen) {
     seen.faces = std::move(smooth);
 }
 
-Drawing painted(Request& request, const SeenScene& seen, const VisibleMap& map) {
+Drawing painted(Request& request, const SeenScene& seen, VisibleMap map) {
     const DrawSettings& settings = request.settings;
     Drawing drawing;
     drawing.width = request.picture.width;
     drawing.height = request.picture.height;
+    if (request.is_in_numbers()) {
+        request.next_stage(request.times.fills);
+        drawing.background = color_of_number(0);
+        drawing.areas =
+            numbered_areas(std::move(map), seen.primitives, request.picture, request.cancel);
+        return drawing;
+    }
     const MapSources sources = {
         request.scene,
         request.camera,
@@ -228,6 +252,66 @@ std::size_t count_seen_faces(const VisibleMap& map) {
     return count;
 }
 
+/// What is seen as regions. The pieces are kept where lines are drawn of them, and the screen too.
+VisibleMap map_of(const Request& request, SeenScene& seen, const Progress& progress) {
+    if (has_lines(request.settings.style))
+        return visible_map(seen.screen, seen.whole.pieces, progress, request.cancel);
+    VisibleMap map =
+        visible_map(seen.screen, std::move(seen.whole.pieces), progress, request.cancel);
+    seen.screen = {};
+    return map;
+}
+
+DrawnScene drawn_scene(Request request) {
+    const DrawSettings& settings = request.settings;
+    const std::size_t lights = request.scene.lights.size();
+    SeenScene seen = seen_scene(request);
+    DrawnScene drawn;
+    drawn.facets = seen.facet_count;
+    drawn.cut_nearness = seen.screen.cut_nearness;
+    drawn.cut_rounds = static_cast<std::size_t>(seen.whole.rounds - 1);
+    drawn.penetrating = seen.whole.left;
+    if (has_shadows(request.picture, settings)) {
+        drawn.shadows = see_shadows(request, seen);
+        drawn.lights_without_shadows = lights - std::min<std::size_t>(lights, most_lights_of_a_set);
+    }
+    const Progress of_map = request.next_stage(request.times.map);
+    if (settings.style == DrawingStyle::shaded)
+        make_faces_smooth(request, seen);
+    VisibleMap map = map_of(request, seen, of_map);
+    drawn.visible_faces = count_seen_faces(map);
+    if (settings.check)
+        settings.check(
+            {map,
+             request.is_in_numbers() ? seen.primitives : primitives_of(seen.facets, seen.faces),
+             drawn.cut_nearness},
+            request.next_stage(request.times.check));
+    drawn.drawing = painted(request, seen, std::move(map));
+    request.next_stage(0); // tells that all are done
+    return drawn;
+}
+
+Request request_for(
+    const Scene& scene,
+    Scene* given,
+    const Camera& camera,
+    const PictureSettings& picture,
+    const DrawSettings& settings,
+    const Progress& progress,
+    const CancelFlag* cancel) {
+    const StageTimes times = stage_times(scene, picture, settings);
+    return {
+        scene,
+        given,
+        camera,
+        picture,
+        settings,
+        times,
+        CameraMap(camera),
+        StageProgress(progress, times.sum()),
+        cancel};
+}
+
 } // namespace
 
 DrawnScene draw_scene(
@@ -237,41 +321,17 @@ DrawnScene draw_scene(
     const DrawSettings& settings,
     const Progress& progress,
     const CancelFlag* cancel) {
-    const StageTimes times = stage_times(scene, picture, settings);
-    Request request = {
-        scene,
-        camera,
-        picture,
-        settings,
-        times,
-        CameraMap(camera),
-        StageProgress(progress, times.sum()),
-        cancel};
-    SeenScene seen = seen_scene(request);
-    DrawnScene drawn;
-    drawn.facets = seen.facets.triangles.size();
-    drawn.cut_nearness = seen.screen.cut_nearness;
-    drawn.cut_rounds = static_cast<std::size_t>(seen.whole.rounds - 1);
-    drawn.penetrating = seen.whole.left;
-    if (has_shadows(picture, settings)) {
-        drawn.shadows = see_shadows(request, seen);
-        drawn.lights_without_shadows =
-            scene.lights.size() - std::min<std::size_t>(scene.lights.size(), most_lights_of_a_set);
-    }
-    const Progress of_map = request.next_stage(times.map);
-    if (settings.style == DrawingStyle::shaded)
-        make_faces_smooth(request, seen);
-    const VisibleMap map = has_lines(settings.style)
-        ? visible_map(seen.screen, seen.whole.pieces, of_map, cancel)
-        : visible_map(seen.screen, std::move(seen.whole.pieces), of_map, cancel);
-    drawn.visible_faces = count_seen_faces(map);
-    if (settings.check)
-        settings.check(
-            {map, primitives_of(seen.facets, seen.faces), seen.screen.cut_nearness},
-            request.next_stage(times.check));
-    drawn.drawing = painted(request, seen, map);
-    request.next_stage(0); // tells that all are done
-    return drawn;
+    return drawn_scene(request_for(scene, nullptr, camera, picture, settings, progress, cancel));
+}
+
+DrawnScene draw_scene(
+    Scene&& scene,
+    const Camera& camera,
+    const PictureSettings& picture,
+    const DrawSettings& settings,
+    const Progress& progress,
+    const CancelFlag* cancel) {
+    return drawn_scene(request_for(scene, &scene, camera, picture, settings, progress, cancel));
 }
 
 } // namespace vera

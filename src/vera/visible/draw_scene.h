@@ -53,4 +53,14 @@ DrawnScene draw_scene(
     const Progress& progress = {},
     const CancelFlag* cancel = nullptr);
 
+/// The same where the scene is not needed any more, but by the check: takes less memory, as the
+/// scene may be emptied on the way.
+DrawnScene draw_scene(
+    Scene&& scene,
+    const Camera& camera,
+    const PictureSettings& picture,
+    const DrawSettings& settings,
+    const Progress& progress = {},
+    const CancelFlag* cancel = nullptr);
+
 } // namespace vera

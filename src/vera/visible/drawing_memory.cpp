@@ -59,7 +59,7 @@ double drawing_bytes(double pieces, std::size_t surfaces, DrawingStyle style) {
         per_piece = 800;
         break;
     case DrawingStyle::ids:
-        per_piece = 350;
+        per_piece = 130; // as areas that share their corners
         break;
     case DrawingStyle::lines:
         per_piece = 450;

@@ -99,9 +99,19 @@ void join_sources(
     const auto source = [&](std::uint32_t triangle) {
         return triangle == no_triangle ? no_source : screen.triangles[triangle].source;
     };
-    std::erase_if(pieces.pieces, [&](const VisiblePiece& piece) {
-        return source(piece.left) == source(piece.right) && piece.left_unlit == piece.right_unlit;
-    });
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < pieces.pieces.size(); ++i) {
+        const VisiblePiece& piece = pieces.pieces[i];
+        const UnlitBeside unlit = pieces.unlit_beside(i);
+        if (source(piece.left) == source(piece.right) && unlit.left == unlit.right)
+            continue;
+        pieces.pieces[kept] = piece;
+        if (!pieces.unlit.empty())
+            pieces.unlit[kept] = unlit;
+        ++kept;
+    }
+    pieces.pieces.resize(kept);
+    pieces.unlit.resize(pieces.unlit.empty() ? 0 : kept);
 }
 
 } // namespace vera

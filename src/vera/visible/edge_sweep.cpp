@@ -57,7 +57,7 @@ void EdgeSweep::add_beside(
     covers_.push_back(
         {triangle,
          is_left ? left_side : right_side,
-         raster_.is_inner[edge] != 0 ? no_edge : edge,
+         raster_.is_inner(edge) ? no_edge : edge,
          first,
          last});
 }
@@ -407,7 +407,7 @@ bool EdgeSweep::gather(std::uint32_t edge) {
             all);
         add_all_across();
     };
-    const std::uint32_t shadowed = raster_.shadowed_source[edge];
+    const std::uint32_t shadowed = raster_.shadowed_source(edge);
     const bool is_of_surfaces = shadowed == no_source;
     const bool is_of_shadows = !is_of_surfaces && shadowed != several_sources;
     if (is_of_shadows) {
@@ -433,7 +433,7 @@ bool EdgeSweep::gather(std::uint32_t edge) {
 }
 
 void EdgeSweep::follow(std::uint32_t edge, VisiblePieces& result) {
-    if (raster_.is_hidden[edge] != 0 || raster_.is_inner[edge] != 0)
+    if (raster_.is_hidden[edge] != 0 || raster_.is_inner(edge))
         return;
     result_ = &result;
     if (!gather(edge))
@@ -463,9 +463,9 @@ void EdgeSweep::follow(std::uint32_t edge, VisiblePieces& result) {
              number + 1,
              raster_.edges.edges[edge],
              open.left.triangle,
-             open.right.triangle,
-             open.left.unlit,
-             open.right.unlit});
+             open.right.triangle});
+        if (raster_.may_be_unlit())
+            result.unlit.push_back({open.left.unlit, open.right.unlit});
     };
     for (std::size_t i = 0; i < events_.size();) {
         const Event& here = events_[i];

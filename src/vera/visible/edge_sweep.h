@@ -23,11 +23,21 @@ struct CellRaster {
     Cells cells; ///< of surfaces
     ShadowCells shadow_cells;
     std::vector<std::uint8_t> is_hidden; ///< edges that lie behind what covers all their cells
-    std::vector<std::uint8_t> is_inner;  ///< edges between two parts of one shadow
-    /// Of edges that nothing has but shadows on one source, that source: other sources' shadows do
-    /// not matter beside them. no_source of those that surfaces alone have, else several_sources.
-    std::vector<std::uint32_t> shadowed_source;
+    std::vector<std::uint8_t> inner;     ///< as is_inner(); or empty
+    std::vector<std::uint32_t> shadowed; ///< as shadowed_source(); or empty: there is no shadow
     std::vector<std::uint8_t> is_near_change; ///< of edges; empty: all are
+
+    /// Whether the edge is one between two parts of one shadow.
+    bool is_inner(std::uint32_t edge) const { return !inner.empty() && inner[edge] != 0; }
+
+    /// Of an edge that nothing has but shadows on one source, that source: other sources' shadows
+    /// do not matter beside it. no_source of one that surfaces alone have, else several_sources.
+    std::uint32_t shadowed_source(std::uint32_t edge) const {
+        return shadowed.empty() ? no_source : shadowed[edge];
+    }
+
+    /// Whether some light may not reach something that is seen.
+    bool may_be_unlit() const { return !shadowed.empty() || !scene.unlit.empty(); }
 };
 
 constexpr std::uint32_t several_sources = no_source - 1;

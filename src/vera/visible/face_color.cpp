@@ -15,13 +15,6 @@ namespace vera {
 
 namespace {
 
-DrawingColor color_of_number(std::uint64_t number) {
-    const auto byte = [&](unsigned shift) {
-        return static_cast<std::uint8_t>(number >> shift & 0xffU);
-    };
-    return {byte(16), byte(8), byte(0)};
-}
-
 /// What the face gives back towards the viewer at the point of its plane that is seen in the middle
 /// of the ring, without mirrors.
 Color light_of_face(const FillSources& sources, std::uint32_t face, const VisibleMap::Ring& ring) {
@@ -58,8 +51,6 @@ Color light_of_face(const FillSources& sources, std::uint32_t face, const Visibl
 DrawingColor region_color(const FillSources& sources, std::span<const VisibleMap::Ring> region) {
     const std::uint32_t face = region.front().source;
     const Facets::Triangle& facet = sources.facets.triangles[sources.faces.first_facet[face]];
-    if (sources.style == DrawingStyle::ids)
-        return color_of_number(facet.primitive + 1);
     const auto largest =
         std::max_element(region.begin(), region.end(), [&](const auto& a, const auto& b) {
             return doubled_area(sources.map, a) < doubled_area(sources.map, b);
@@ -73,13 +64,12 @@ DrawingColor region_color(const FillSources& sources, std::span<const VisibleMap
 
 std::optional<DrawingColor> background_color(const FillSources& sources) {
     switch (sources.style) {
-    case DrawingStyle::ids:
-        return color_of_number(0);
     case DrawingStyle::flat:
     case DrawingStyle::toon:
         return drawn_color(firmament_color(
             sources.picture.firmament, view_ray(sources.camera, 0.5, 0.5).direction));
     case DrawingStyle::shaded: // painted with its outlines
+    case DrawingStyle::ids:    // of numbers: see numbered_areas.h
     case DrawingStyle::lines:
     case DrawingStyle::hidden_lines:
         break;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/light_views.h"
 
+#include "vera/base/free_room.h"
 #include "vera/base/long_loop.h"
 #include "vera/base/progress_part.h"
 #include "vera/math/box3.h"
@@ -111,7 +112,7 @@ LightViews light_views(
         view.transparent.triangles.assign(transparent, triangles.end());
         triangles.erase(transparent, triangles.end());
         if (view.transparent.triangles.empty())
-            view.transparent.vertices = {};
+            free_room(view.transparent.vertices);
         sort_by_place(view.screen, cancel);
         result.lit.add(view.screen, progress_part(progress, i, frames.size()), cancel);
         view.cells = cells_of(view.screen, cancel);

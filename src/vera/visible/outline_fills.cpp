@@ -139,31 +139,6 @@ void add_flat(
     std::ranges::move(fills, std::back_inserter(drawing.fills));
 }
 
-/// The outlines in the colours of their numbers. These are to be compared, not looked at: the
-/// colour says all, and the file stays small.
-void add_numbers(
-    const FillSources& sources,
-    const RegionOutlines& regions,
-    const Progress& progress,
-    const CancelFlag* cancel,
-    Drawing& drawing) {
-    drawing.fills.resize(regions.count());
-    long_parallel_loop(regions.count(), progress, cancel, 256, [&](std::size_t i) {
-        PaintedRegion region;
-        region.outline.color = region_color(sources, regions.rings(i));
-        region.rings = regions.borders(i);
-        add_rings(region, regions.curves().all());
-        drawing.fills[i] = std::move(region.outline);
-    });
-}
-
-/// Numbers are exact: what is compared with rays is what is written.
-DrawnBorders
-borders_of(const FillSources& sources, const Progress& progress, const CancelFlag* cancel) {
-    return sources.style == DrawingStyle::ids ? straight_borders(sources.map, sources.picture)
-                                              : curved_borders(sources, progress, cancel);
-}
-
 } // namespace
 
 void add_fills(
@@ -173,12 +148,10 @@ void add_fills(
     Drawing& drawing) {
     drawing.background = background_color(sources);
     StageProgress stages(progress, 10);
-    const RegionOutlines regions(sources.map, borders_of(sources, stages.next(1), cancel));
+    const RegionOutlines regions(sources.map, curved_borders(sources, stages.next(1), cancel));
     const Progress of_fills = stages.next(9);
     if (sources.style == DrawingStyle::shaded)
         add_shaded(sources, regions, of_fills, cancel, drawing);
-    else if (sources.style == DrawingStyle::ids)
-        add_numbers(sources, regions, of_fills, cancel, drawing);
     else
         add_flat(sources, regions, of_fills, cancel, drawing);
 }

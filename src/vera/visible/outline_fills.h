@@ -9,7 +9,7 @@ namespace vera {
 
 /// Adds what is seen of each face as areas of the drawing, in the order of the faces, and sets what
 /// is behind them. Those that abut let nothing of that through: see trapping.h and underlays.h.
-/// Style ids, which is not looked at, has neither that nor groups. Throws Cancelled.
+/// Not for style ids: see numbered_areas.h. Throws Cancelled.
 void add_fills(
     const FillSources& sources,
     const Progress& progress,

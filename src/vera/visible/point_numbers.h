@@ -38,6 +38,11 @@ public:
             places_[place_of(points[i])] = i;
     }
 
+    static constexpr std::uint32_t none = ~std::uint32_t{0};
+
+    /// Of a point that was numbered; none of others.
+    std::uint32_t find(const RationalPoint& point) const { return places_[place_of(point)]; }
+
     std::uint32_t number(const RationalPoint& point) {
         const std::size_t place = place_of(point);
         if (places_[place] == none) {
@@ -48,8 +53,6 @@ public:
     }
 
 private:
-    static constexpr std::uint32_t none = ~std::uint32_t{0};
-
     /// Of an equal point, or where it is to be put.
     std::size_t place_of(const RationalPoint& point) const {
         const std::size_t mask = places_.size() - 1;

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/visible_map.h"
 
+#include "vera/base/free_room.h"
 #include "vera/base/long_loop.h"
 #include "vera/base/progress_part.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numeric>
+#include <span>
 #include <utility>
 
 namespace vera {
@@ -243,31 +246,31 @@ private:
 
 Ways ways_of(
     const ScreenScene& scene,
-    const std::vector<VisiblePiece>& pieces,
+    const VisiblePieces& pieces,
     const Progress& progress,
     const CancelFlag* cancel,
     VisibleMap& map) {
     StageProgress stages(progress, 2);
-    Ways ways(scene, pieces);
+    const std::size_t count = pieces.pieces.size();
+    Ways ways(scene, pieces.pieces);
     // Calls visit(way, region) for the ways of the piece with one on their left.
     const auto for_each_region = [&](std::size_t i, const auto& visit) {
-        const VisiblePiece& piece = pieces[i];
+        const VisiblePiece& piece = pieces.pieces[i];
+        const UnlitBeside unlit = pieces.unlit_beside(i);
         if (piece.left != no_triangle)
-            visit(2 * i, VisibleMap::Region{scene.triangles[piece.left].source, piece.left_unlit});
+            visit(2 * i, VisibleMap::Region{scene.triangles[piece.left].source, unlit.left});
         if (piece.right != no_triangle)
-            visit(
-                2 * i + 1,
-                VisibleMap::Region{scene.triangles[piece.right].source, piece.right_unlit});
+            visit(2 * i + 1, VisibleMap::Region{scene.triangles[piece.right].source, unlit.right});
     };
     RegionNumbers regions;
-    const LongLoop loop(pieces.size(), stages.next(1), cancel);
-    for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const LongLoop loop(count, stages.next(1), cancel);
+    for (std::size_t i = 0; i < count; ++i) {
         loop.turn(i);
         for_each_region(i, [&](std::size_t, VisibleMap::Region region) { regions.add(region); });
     }
     map.regions = regions.numbered();
     stages.next(1);
-    parallel_ranges(pieces.size(), block, [&](std::size_t first, std::size_t last) {
+    parallel_ranges(count, block, [&](std::size_t first, std::size_t last) {
         stop_if_raised(cancel);
         for (std::size_t i = first; i < last; ++i)
             for_each_region(i, [&](std::size_t way, VisibleMap::Region region) {
@@ -281,51 +284,203 @@ bool is_straight_on(ScreenStep a, ScreenStep b) {
     return cross(a, b) == 0;
 }
 
-/// Whose vertices are there already.
-void fill_map(
+/// The ways beside which something is seen, in parts that have no region in common; those of one
+/// part in ascending order.
+struct PartedWays {
+    std::vector<std::uint32_t> ways;
+    std::vector<std::size_t> starts; ///< of the parts, and the end
+
+    std::span<const std::uint32_t> of(std::size_t part) const {
+        return std::span(ways).subspan(starts[part], starts[part + 1] - starts[part]);
+    }
+};
+
+/// Of each region the part of all ways, so many of which are one, in which its first one is.
+std::vector<std::uint32_t>
+parts_of_regions(const Ways& ways, std::size_t regions, std::size_t ways_of_a_part) {
+    std::vector<std::uint32_t> parts(regions, none);
+    for (std::size_t way = 0; way < ways.count(); ++way)
+        if (const std::uint32_t region = ways.region[way];
+            region != no_region && parts[region] == none)
+            parts[region] = static_cast<std::uint32_t>(way / ways_of_a_part);
+    return parts;
+}
+
+/// By where each region begins, as ways of one are near each other in memory. Threads share the
+/// blocks of ways.
+PartedWays parted_by_region(const Ways& ways, std::size_t regions, const CancelFlag* cancel) {
+    constexpr std::size_t most_parts = 1024;
+    constexpr std::size_t least_of_a_part = 4096;
+    constexpr std::size_t ways_of_a_block = 65536;
+    const std::size_t ways_of_a_part = std::max(least_of_a_part, ways.count() / most_parts + 1);
+    const std::size_t parts = ways.count() / ways_of_a_part + 1;
+    const std::size_t blocks = (ways.count() + ways_of_a_block - 1) / ways_of_a_block;
+    const std::vector<std::uint32_t> part_of = parts_of_regions(ways, regions, ways_of_a_part);
+    const auto for_each_of_block = [&](std::size_t number, const auto& visit) {
+        stop_if_raised(cancel);
+        const std::size_t end = std::min(ways.count(), (number + 1) * ways_of_a_block);
+        for (std::size_t way = number * ways_of_a_block; way < end; ++way)
+            if (ways.region[way] != no_region)
+                visit(way, part_of[ways.region[way]]);
+    };
+    // By part and block within it, so that the ways of a part stay in their order.
+    std::vector<std::size_t> starts(parts * blocks + 1);
+    parallel_ranges(blocks, 1, [&](std::size_t number, std::size_t) {
+        for_each_of_block(
+            number, [&](std::size_t, std::size_t part) { ++starts[part * blocks + number + 1]; });
+    });
+    std::partial_sum(starts.begin(), starts.end(), starts.begin());
+    PartedWays parted;
+    for (std::size_t part = 0; part <= parts; ++part)
+        parted.starts.push_back(starts[part * blocks]);
+    parted.ways.resize(starts.back());
+    parallel_ranges(blocks, 1, [&](std::size_t number, std::size_t) {
+        for_each_of_block(number, [&](std::size_t way, std::size_t part) {
+            parted.ways[starts[part * blocks + number]++] = static_cast<std::uint32_t>(way);
+        });
+    });
+    return parted;
+}
+
+/// The rings of some regions, as in a VisibleMap that has no others.
+struct TracedRings {
+    std::vector<VisibleMap::Ring> rings;
+    std::vector<std::uint32_t> ring_vertices;
+    std::vector<std::uint32_t> ring_across;
+    std::vector<std::size_t> joined_sides;
+    std::vector<std::uint32_t> places; ///< of the rings in the whole map
+
+    void add(std::uint32_t vertex, std::uint32_t across) {
+        ring_vertices.push_back(vertex);
+        ring_across.push_back(across);
+    }
+};
+
+/// The ring along the way, whose ways are done then. next[i] is the way that follows way i.
+void trace_ring(
+    std::uint32_t first,
+    const Ways& ways,
+    std::span<const std::uint32_t> next,
+    std::span<std::uint8_t> done,
+    TracedRings& traced) {
+    std::uint32_t way = first;
+    do {
+        done[way] = 1;
+        const std::uint32_t after = next[way];
+        const bool is_joined = ways.to(way) != ways.from(after);
+        if (is_joined) {
+            traced.joined_sides.push_back(traced.ring_vertices.size());
+            traced.add(ways.to(way), no_region);
+        }
+        if (is_joined || !is_straight_on(ways.direction(way), ways.direction(after))
+            || ways.region[way ^ 1U] != ways.region[after ^ 1U])
+            traced.add(ways.from(after), ways.region[after ^ 1U]);
+        way = after;
+    } while (way != first);
+}
+
+/// The rings of the parts of ways, which no two have in common.
+std::vector<TracedRings> traced_rings(
+    const Ways& ways,
+    const PartedWays& parted,
+    std::span<const std::uint32_t> next,
+    const Progress& progress,
+    const CancelFlag* cancel,
+    std::span<const VisibleMap::Region> regions) {
+    std::vector<std::uint8_t> done(ways.count());
+    std::vector<TracedRings> parts(parted.starts.size() - 1);
+    long_parallel_loop(parts.size(), progress, cancel, 1, [&](std::size_t part) {
+        TracedRings traced;
+        const std::span<const std::uint32_t> own = parted.of(part);
+        traced.ring_vertices.reserve(own.size()); // hardly fewer
+        traced.ring_across.reserve(own.size());
+        const LongLoop loop(own.size(), {}, cancel);
+        for (std::size_t i = 0; i < own.size(); ++i) {
+            loop.turn(i);
+            if (done[own[i]] != 0)
+                continue;
+            const std::uint32_t region = ways.region[own[i]];
+            const std::size_t first = traced.ring_vertices.size();
+            trace_ring(own[i], ways, next, done, traced);
+            traced.rings.push_back(
+                {regions[region].source, region, first, traced.ring_vertices.size() - first});
+        }
+        parts[part] = std::move(traced);
+    });
+    return parts;
+}
+
+/// The rings round what is seen of each region, and its regions, into the map, whose vertices are
+/// there already. In parts, since what they are found with takes as much room as they.
+std::vector<TracedRings> find_rings(
     const ScreenScene& scene,
-    const std::vector<VisiblePiece>& pieces,
+    const VisiblePieces& pieces,
     const Progress& progress,
     const CancelFlag* cancel,
     VisibleMap& map) {
     StageProgress stages(progress, 3);
     const Ways ways = ways_of(scene, pieces, stages.next(1), cancel, map);
     const std::vector<std::uint32_t> next = following(ways, stages.next(1), cancel, map);
-    std::vector<std::uint8_t> done(ways.count());
-    const auto add = [&](std::uint32_t vertex, std::uint32_t across) {
-        map.ring_vertices.push_back(vertex);
-        map.ring_across.push_back(across);
-    };
-    const LongLoop loop(ways.count(), stages.next(1), cancel);
-    for (std::uint32_t first = 0; first < ways.count(); ++first) {
-        loop.turn(first);
-        if (done[first] != 0 || ways.region[first] == no_region)
-            continue;
-        VisibleMap::Ring ring = {
-            map.regions[ways.region[first]].source,
-            ways.region[first],
-            map.ring_vertices.size(),
-            0};
-        std::uint32_t way = first;
-        do {
-            done[way] = 1;
-            const std::uint32_t after = next[way];
-            const bool is_joined = ways.to(way) != ways.from(after);
-            if (is_joined) {
-                map.joined_sides.push_back(map.ring_vertices.size());
-                add(ways.to(way), no_region);
-            }
-            if (is_joined || !is_straight_on(ways.direction(way), ways.direction(after))
-                || ways.region[way ^ 1U] != ways.region[after ^ 1U])
-                add(ways.from(after), ways.region[after ^ 1U]);
-            way = after;
-        } while (way != first);
-        ring.count = map.ring_vertices.size() - ring.first;
-        map.rings.push_back(ring);
-    }
-    std::stable_sort(map.rings.begin(), map.rings.end(), [](const auto& a, const auto& b) {
-        return a.region < b.region;
+    const Progress of_rings = stages.next(1);
+    return traced_rings(
+        ways,
+        parted_by_region(ways, map.regions.size(), cancel),
+        next,
+        of_rings,
+        cancel,
+        map.regions);
+}
+
+/// Puts the rings of the parts into the map, by region, and notes their places. No two parts have
+/// rings of one region.
+void place_rings(std::vector<TracedRings>& parts, VisibleMap& map) {
+    std::vector<std::uint32_t> next(map.regions.size() + 1); // place of a ring of each region
+    for (const TracedRings& part : parts)
+        for (const VisibleMap::Ring& ring : part.rings)
+            ++next[ring.region + std::size_t{1}];
+    std::partial_sum(next.begin(), next.end(), next.begin());
+    map.rings.resize(next.back());
+    parallel_ranges(parts.size(), 1, [&](std::size_t number, std::size_t) {
+        TracedRings& part = parts[number];
+        for (const VisibleMap::Ring& ring : part.rings) {
+            part.places.push_back(next[ring.region]++);
+            map.rings[part.places.back()] = ring;
+        }
     });
+    std::size_t first = 0;
+    for (VisibleMap::Ring& ring : map.rings) {
+        ring.first = first;
+        first += ring.count;
+    }
+}
+
+void join_rings(std::vector<TracedRings> parts, VisibleMap& map) {
+    std::size_t vertices = 0;
+    for (const TracedRings& part : parts)
+        vertices += part.ring_vertices.size();
+    place_rings(parts, map);
+    map.ring_vertices.resize(vertices);
+    map.ring_across.resize(vertices);
+    parallel_ranges(parts.size(), 1, [&](std::size_t number, std::size_t) {
+        TracedRings& part = parts[number];
+        for (std::size_t i = 0; i < part.rings.size(); ++i) {
+            const auto [from, count] = std::pair(part.rings[i].first, part.rings[i].count);
+            const std::size_t to = map.rings[part.places[i]].first;
+            std::copy_n(part.ring_vertices.data() + from, count, map.ring_vertices.data() + to);
+            std::copy_n(part.ring_across.data() + from, count, map.ring_across.data() + to);
+        }
+        free_room(part.ring_vertices);
+        free_room(part.ring_across);
+    });
+    for (const TracedRings& part : parts)
+        for (const std::size_t side : part.joined_sides) {
+            const auto behind = std::ranges::upper_bound(
+                part.rings, side, {}, &VisibleMap::Ring::first); // the ring after the side's
+            const auto ring = static_cast<std::size_t>(behind - part.rings.begin()) - 1;
+            map.joined_sides.push_back(
+                map.rings[part.places[ring]].first + side - part.rings[ring].first);
+        }
+    std::ranges::sort(map.joined_sides);
 }
 
 } // namespace
@@ -337,7 +492,7 @@ VisibleMap visible_map(
     const CancelFlag* cancel) {
     VisibleMap map;
     map.vertices = pieces.points;
-    fill_map(scene, pieces.pieces, progress, cancel, map);
+    join_rings(find_rings(scene, pieces, progress, cancel, map), map);
     return map;
 }
 
@@ -349,7 +504,10 @@ VisibleMap visible_map(
     VisiblePieces taken = std::move(pieces);
     VisibleMap map;
     map.vertices = std::move(taken.points);
-    fill_map(scene, taken.pieces, progress, cancel, map);
+    std::vector<TracedRings> parts = find_rings(scene, taken, progress, cancel, map);
+    free_room(taken.pieces);
+    free_room(taken.unlit);
+    join_rings(std::move(parts), map);
     return map;
 }
 

@@ -36,11 +36,11 @@ struct VisibleMap {
         std::size_t count = 0;
     };
 
-    std::vector<RationalPoint> vertices; ///< the points of the pieces
-    std::vector<Region> regions;         ///< in ascending order
-    std::vector<Ring> rings;             ///< by region
-    std::vector<std::uint32_t> ring_vertices;
-    std::vector<std::uint32_t> ring_across; ///< regions, or no_region
+    std::vector<RationalPoint> vertices;      ///< the points of the pieces
+    std::vector<Region> regions;              ///< in ascending order
+    std::vector<Ring> rings;                  ///< by region
+    std::vector<std::uint32_t> ring_vertices; ///< one ring's behind the other's
+    std::vector<std::uint32_t> ring_across;   ///< regions, or no_region
     /// How often ways round what is seen had to be joined by a straight one. None where nothing was
     /// cut; else two surfaces may part what is seen along lines a step from each other, between
     /// which neither is seen for sure.

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vera/base/free_room.h"
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
+namespace vera {
+
+void give_back_freed_blocks() {
+#ifdef __GLIBC__
+    constexpr int mebibyte = 1 << 20;
+    mallopt(M_MMAP_THRESHOLD, mebibyte); // which ends that it grows
+#endif
+}
+
+} // namespace vera

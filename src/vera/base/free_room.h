@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+namespace vera {
+
+/// Empties a vector and gives its memory back, which clear() and = {} do not.
+template <typename T>
+void free_room(std::vector<T>& vector) {
+    std::vector<T>().swap(vector);
+}
+
+/// From now on the whole process gives back to the system each block of a MiB or more as soon as it
+/// is freed. (The C library of GNU, if left alone, comes to keep blocks of up to 32 MiB, between
+/// others that are in use, for the next ones that fit.)
+void give_back_freed_blocks();
+
+} // namespace vera
