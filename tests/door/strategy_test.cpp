@@ -179,7 +179,8 @@ TEST(Strategy, RefusesWhatMeansNothingToIt) {
         const char* message;
     } wrong[] = {
         {"--strategy dpeth",
-         "--strategy takes rays, visible, depth, central or primitive-query; found 'dpeth'; did you "
+         "--strategy takes rays, visible, depth, central or primitive-query; found 'dpeth'; did "
+         "you "
          "mean 'depth'?"},
         {"--strategy visible --samples 16",
          "--strategy visible takes exact areas, not --samples: leave it out"},

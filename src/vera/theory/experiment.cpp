@@ -28,7 +28,8 @@ std::span<const Experiment> experiments() {
              {plane_query_experiments,
               nested_trees_experiments,
               dual_experiments,
-              visible_surface_experiments}) {
+              visible_surface_experiments,
+              terrain_experiments}) {
             std::vector<Experiment> some = of_structure();
             std::move(some.begin(), some.end(), std::back_inserter(found));
         }

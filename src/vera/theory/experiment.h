@@ -62,5 +62,6 @@ std::vector<Experiment> plane_query_experiments();
 std::vector<Experiment> nested_trees_experiments();
 std::vector<Experiment> dual_experiments();
 std::vector<Experiment> visible_surface_experiments();
+std::vector<Experiment> terrain_experiments();
 
 } // namespace vera
