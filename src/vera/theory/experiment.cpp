@@ -31,7 +31,8 @@ std::span<const Experiment> experiments() {
               nested_trees_experiments,
               ray_search_experiments,
               dual_experiments,
-              visible_surface_experiments}) {
+              visible_surface_experiments,
+              terrain_experiments}) {
             std::vector<Experiment> some = of_structure();
             std::move(some.begin(), some.end(), std::back_inserter(found));
         }

@@ -63,5 +63,6 @@ std::vector<Experiment> nested_trees_experiments();
 std::vector<Experiment> ray_search_experiments();
 std::vector<Experiment> dual_experiments();
 std::vector<Experiment> visible_surface_experiments();
+std::vector<Experiment> terrain_experiments();
 
 } // namespace vera
