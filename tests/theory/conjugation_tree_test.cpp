@@ -55,7 +55,7 @@ public:
 private:
     const ConjugationTree& tree_;
     PlaneStrip strip_;
-    QueryCounts counts_;
+    StepCounts counts_;
 };
 
 std::size_t height(const ConjugationTree& tree, std::uint32_t node = 0) {
@@ -105,7 +105,7 @@ TEST(ConjugationTree, LooksAtNoMoreNodesThanTheBoundSays) {
             const ConjugationTree tree(points, 1);
             const std::uint64_t bound = most_nodes(height(tree));
             for (int query = 0; query < 200; ++query) {
-                QueryCounts counts;
+                StepCounts counts;
                 const PlaneStrip strip =
                     testing::strip_near(points, testing::some_normal(points, random), random);
                 tree.count(strip, &counts);

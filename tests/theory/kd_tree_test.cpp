@@ -17,7 +17,7 @@ TEST(KdTree, CountsWhatLookingAtEachPointCounts) {
             for (int query = 0; query < 30; ++query) {
                 const PlaneDirection normal = some_normal(points, random);
                 const PlaneStrip strip = strip_near(points, normal, random);
-                QueryCounts counts;
+                StepCounts counts;
                 const std::size_t expected = brute_force_numbers_in(points, strip).size();
                 ASSERT_EQ(tree.count(strip, &counts), expected) << family.name;
                 ASSERT_GE(counts.nodes, 1U);

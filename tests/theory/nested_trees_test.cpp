@@ -28,7 +28,7 @@ using testing::repeated_rectangles;
 struct Answers {
     int met = 0;
     int missed = 0;
-    QueryCounts counts = {};
+    StepCounts counts = {};
 };
 
 void compare(
@@ -140,7 +140,7 @@ testing::Growth growth_of_steps(double parts, Random& random) {
         const double side = parts * reach / std::sqrt(static_cast<double>(count));
         const NestedTrees trees(
             rectangles_within(count, reach, static_cast<std::int32_t>(side), random), 8);
-        QueryCounts counts;
+        StepCounts counts;
         for (int i = 0; i < 300; ++i)
             trees.first_rectangle(ray_within(reach, 1000, random), &counts);
         sizes.push_back(static_cast<double>(count));

@@ -77,7 +77,7 @@ double nodes_of_queries(const PlanePoints& points, Random& random) {
             testing::strip_near(points, testing::some_normal(points, random), random);
         if (strip.highest != PlaneStrip().highest)
             strip.lowest = PlaneStrip().lowest;
-        QueryCounts counts;
+        StepCounts counts;
         tree.count(strip, &counts);
         most = std::max(most, counts.nodes);
     }

@@ -111,7 +111,7 @@ TEST(RaySegments, TakeNoMoreStepsThanTheirTreesAllow) {
         const RaySegments segments(lines(count, random));
         const auto bits = static_cast<std::uint64_t>(std::bit_width(count));
         for (const IsoRectangle& rectangle : rectangles_amid(300, random)) {
-            QueryCounts counts;
+            StepCounts counts;
             segments.rays_met(rectangle, &counts);
             ASSERT_LE(counts.nodes, segments.height());
             // A row of rays falls into two of each length at most.
@@ -128,7 +128,7 @@ TEST(RaySegments, GrowNoFasterThanThePaperSays) {
     std::vector<double> bytes;
     for (std::size_t count = 16; count <= 256; count *= 2) {
         const RaySegments segments(lines(count, random));
-        QueryCounts counts;
+        StepCounts counts;
         for (const IsoRectangle& rectangle : rectangles_amid(1000, random))
             segments.rays_met(rectangle, &counts);
         const double logarithm = std::log2(static_cast<double>(count));

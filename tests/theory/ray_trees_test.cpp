@@ -85,7 +85,7 @@ TEST(LiveRays, AreCountedInEachNode) {
         const SlopedRays rays = family.rays(200, 20, 3, random);
         const RayTrees trees(rays, 4);
         LiveRays live(trees);
-        QueryCounts counts;
+        StepCounts counts;
         std::vector<bool> expected(rays.size());
         for (int turn = 0; turn < 500; ++turn) {
             const auto ray = static_cast<std::uint32_t>(random() % rays.size());
@@ -141,7 +141,7 @@ TEST(RayTrees, LeaveToAVisitorWhatHappensAtTheirEnds) {
         for (const IsoRectangle& rectangle : rectangles_within(50, 1000, 2000, random)) {
             std::vector<int> times(rays.size());
             std::vector<std::string> told(rays.size());
-            QueryCounts counts;
+            StepCounts counts;
             trees.visit(rectangle, counts, NotedRays{times, told});
             for (std::size_t i = 0; i < rays.size(); ++i) {
                 const bool in_x = contains(x_strip(rectangle), x_point(rays[i]));
@@ -160,7 +160,7 @@ TEST(RayTrees, LeaveToAVisitorWhatHappensAtTheirEnds) {
 
 /// Looks at all that a query has to look at, and tells nothing.
 struct CountedSteps {
-    QueryCounts& counts;
+    StepCounts& counts;
 
     bool enters(RayNode /*node*/) const { return true; }
 
@@ -179,7 +179,7 @@ growth_of_steps(const testing::RayFamily& family, std::int32_t size, Random& ran
     std::vector<double> steps;
     for (std::size_t count = 256; count <= 8192; count *= 2) {
         const RayTrees trees(family.rays(count, reach, 1000, random), 8);
-        QueryCounts counts;
+        StepCounts counts;
         for (const IsoRectangle& rectangle : rectangles_within(300, 1000, size, random))
             trees.visit(rectangle, counts, CountedSteps{counts});
         sizes.push_back(static_cast<double>(count));
@@ -210,7 +210,7 @@ TEST(RayTrees, TellRaysThatAreEqualWithoutLookingAtThoseThatAreNotLive) {
         rays[static_cast<std::size_t>(i)].first_z = i;
         rectangles[static_cast<std::size_t>(i)] = {i, -1, 1, -1, 1};
     }
-    QueryCounts counts;
+    StepCounts counts;
     const FirstRectangles first = first_rectangles(rectangles, RayTrees(rays), &counts);
     for (std::size_t i = 0; i < first.size(); ++i)
         ASSERT_EQ(first[i], i);

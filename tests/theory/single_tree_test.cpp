@@ -44,7 +44,7 @@ TEST(SingleTree, LooksAtFewAmongManyRectangles) {
     Random random(2);
     const Rectangles rectangles = rectangles_within(4000, 1000, 40, random);
     const SingleTree tree(rectangles);
-    QueryCounts counts;
+    StepCounts counts;
     for (int i = 0; i < 300; ++i) {
         const WholeRay ray = ray_within(1000, 50, random);
         ASSERT_EQ(tree.first_rectangle(ray, &counts), brute_force_first_rectangle(rectangles, ray));

@@ -48,7 +48,7 @@ struct Family {
 using Visits = std::map<std::string, double>;
 using Growths = std::map<std::string, Growth>;
 
-double steps(const QueryCounts& counts) {
+double steps(const StepCounts& counts) {
     return static_cast<double>(counts.nodes + counts.points);
 }
 
@@ -58,8 +58,8 @@ Visits visits(const Family& family, std::size_t count, Random& random) {
     const testing::RectangleIndexes indexes(placed(rectangles));
     const NestedTrees nested(rectangles, 8);
     const SingleTree single(rectangles, 8);
-    QueryCounts of_nested;
-    QueryCounts of_single;
+    StepCounts of_nested;
+    StepCounts of_single;
     Visits sums;
     for (int i = 0; i < 30; ++i) {
         const WholeRay ray = family.ray(random);

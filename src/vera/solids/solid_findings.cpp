@@ -488,8 +488,7 @@ void GeometryCheck::add_pair(
         : add_of_face(kind, Severity::note, faces.first);
     finding.other = other;
     const std::string with = item == other
-        ? fmt::format(
-            "itself, at {} pair{} of triangles", faces.count, faces.count == 1 ? "" : "s")
+        ? fmt::format("itself, at {} pair{} of triangles", faces.count, faces.count == 1 ? "" : "s")
         : fmt::format(
             "{} of {}",
             is_sphere(item) == is_sphere(other) ? "that" : fmt::format("the {}", word_for(other)),

@@ -84,7 +84,7 @@ private:
 
     const ConjugationTree& tree_;
     PlaneStrip strip_;
-    QueryCounts counts_;
+    StepCounts counts_;
     std::vector<Ending> endings_;
 };
 

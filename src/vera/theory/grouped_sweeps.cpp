@@ -100,7 +100,7 @@ private:
     const SweptRays& swept_;
     const Meeting& meeting_;
     const CancelFlag* cancel_;
-    QueryCounts steps_;
+    StepCounts steps_;
 };
 
 std::vector<ConjugationNode> leaves_of(const ConjugationTree& tree) {
@@ -207,7 +207,7 @@ void sweep_groups(
     std::mutex mutex;
     long_parallel_loop(nodes.size(), progress, cancel, 1, [&](std::size_t i) {
         NodeSweeper sweeper(rectangles, swept, meeting, cancel);
-        QueryCounts steps;
+        StepCounts steps;
         Numbers asked;
         for (std::uint32_t r = 0; r < rectangles.size(); ++r)
             if (outer.inclusion(nodes[i], x_strip(rectangles[r]), steps) != Inclusion::none)

@@ -40,7 +40,7 @@ std::uint32_t KdTree::build(std::uint32_t first, std::uint32_t last, bool across
 }
 
 std::size_t
-KdTree::count_below(std::uint32_t number, const PlaneStrip& strip, QueryCounts& counts) const {
+KdTree::count_below(std::uint32_t number, const PlaneStrip& strip, StepCounts& counts) const {
     const Node& node = nodes_[number];
     ++counts.nodes;
     const PlaneDirection normal = strip.normal;
@@ -69,9 +69,9 @@ KdTree::count_below(std::uint32_t number, const PlaneStrip& strip, QueryCounts& 
     return found;
 }
 
-std::size_t KdTree::count(const PlaneStrip& strip, QueryCounts* counts) const {
+std::size_t KdTree::count(const PlaneStrip& strip, StepCounts* counts) const {
     require_plane_strip(strip);
-    QueryCounts steps;
+    StepCounts steps;
     return nodes_.empty() ? 0 : count_below(0, strip, counts != nullptr ? *counts : steps);
 }
 

@@ -14,7 +14,7 @@ public:
     explicit KdTree(std::span<const PlanePoint> points, std::size_t leaf_size = 1);
 
     /// How many points lie in the strip.
-    std::size_t count(const PlaneStrip& strip, QueryCounts* counts = nullptr) const;
+    std::size_t count(const PlaneStrip& strip, StepCounts* counts = nullptr) const;
 
 private:
     /// The first child is the next node.
@@ -27,7 +27,7 @@ private:
     };
 
     std::uint32_t build(std::uint32_t first, std::uint32_t last, bool across_x);
-    std::size_t count_below(std::uint32_t node, const PlaneStrip& strip, QueryCounts& counts) const;
+    std::size_t count_below(std::uint32_t node, const PlaneStrip& strip, StepCounts& counts) const;
 
     std::span<const PlanePoint> points_;
     std::size_t leaf_size_;

@@ -19,7 +19,7 @@
 namespace vera {
 
 struct NestedSweepCounts {
-    QueryCounts trees;
+    StepCounts trees;
     SweepCounts sweeps;
 };
 

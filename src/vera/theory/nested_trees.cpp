@@ -123,7 +123,7 @@ private:
 /// One ray's way through the trees.
 class RectangleSearch {
 public:
-    RectangleSearch(const NestedTrees& trees, const WholeRay& ray, QueryCounts& counts)
+    RectangleSearch(const NestedTrees& trees, const WholeRay& ray, StepCounts& counts)
         : trees_(trees)
         , ray_(ray)
         , counts_(counts)
@@ -213,7 +213,7 @@ private:
     const NestedTrees& trees_;
     const WholeRay& ray_;
     std::array<PlaneStrip, side_condition_count> half_planes_;
-    QueryCounts& counts_;
+    StepCounts& counts_;
     NearestRectangle first_;
 };
 
@@ -248,8 +248,8 @@ NestedTrees::NestedTrees(
 }
 
 std::optional<std::uint32_t>
-NestedTrees::first_rectangle(const WholeRay& ray, QueryCounts* counts) const {
-    QueryCounts steps;
+NestedTrees::first_rectangle(const WholeRay& ray, StepCounts* counts) const {
+    StepCounts steps;
     return RectangleSearch(*this, ray, counts != nullptr ? *counts : steps).first();
 }
 

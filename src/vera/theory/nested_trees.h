@@ -51,7 +51,7 @@ public:
 
     /// As brute_force_first_rectangle(), and throws likewise. May be asked from many threads.
     std::optional<std::uint32_t>
-    first_rectangle(const WholeRay& ray, QueryCounts* counts = nullptr) const;
+    first_rectangle(const WholeRay& ray, StepCounts* counts = nullptr) const;
 
     /// What it takes of memory.
     std::size_t bytes() const;

@@ -19,7 +19,7 @@ CountedSize
 counted_steps(std::size_t size, double parts, std::uint64_t seed, const CancelFlag* cancel) {
     std::mt19937_64 random(seed);
     const NestedTrees trees(scattered_rectangles(size, parts, random), few, {}, cancel);
-    QueryCounts counts;
+    StepCounts counts;
     for (int i = 0; i < rays; ++i)
         trees.first_rectangle(scattered_ray(random), &counts);
     const auto n = static_cast<double>(size);

@@ -66,7 +66,7 @@ void PartitionTree::add_hulls(const Progress& progress, const CancelFlag* cancel
 }
 
 Inclusion PartitionTree::inclusion(
-    const PartitionNode& node, const PlaneStrip& strip, QueryCounts& counts) const {
+    const PartitionNode& node, const PlaneStrip& strip, StepCounts& counts) const {
     const auto hulls = std::span<const std::uint32_t>(hulls_);
     const HullExtent extent = extent_along(
         strip.normal,
@@ -83,7 +83,7 @@ Inclusion PartitionTree::inclusion(
 
 template <typename Whole, typename Single>
 void PartitionTree::search(
-    const PlaneStrip& strip, QueryCounts& counts, const Whole& whole, const Single& single) const {
+    const PlaneStrip& strip, StepCounts& counts, const Whole& whole, const Single& single) const {
     require_plane_strip(strip);
     std::vector<std::uint32_t> waiting;
     if (!nodes_.empty())
@@ -107,8 +107,8 @@ void PartitionTree::search(
     }
 }
 
-std::size_t PartitionTree::count(const PlaneStrip& strip, QueryCounts* counts) const {
-    QueryCounts steps;
+std::size_t PartitionTree::count(const PlaneStrip& strip, StepCounts* counts) const {
+    StepCounts steps;
     std::size_t found = 0;
     search(
         strip,
@@ -119,8 +119,8 @@ std::size_t PartitionTree::count(const PlaneStrip& strip, QueryCounts* counts) c
 }
 
 std::vector<std::uint32_t>
-PartitionTree::numbers_in(const PlaneStrip& strip, QueryCounts* counts) const {
-    QueryCounts steps;
+PartitionTree::numbers_in(const PlaneStrip& strip, StepCounts* counts) const {
+    StepCounts steps;
     std::vector<std::uint32_t> found;
     search(
         strip,

@@ -17,7 +17,7 @@
 namespace vera {
 
 /// The steps of queries, which are the same on every machine. They add up over queries.
-struct QueryCounts {
+struct StepCounts {
     std::uint64_t nodes = 0;    ///< whose hull was compared with a query
     std::uint64_t vertices = 0; ///< of hulls that were looked at for it
     std::uint64_t points = 0;   ///< or rectangles, or rays, looked at one by one
@@ -69,11 +69,11 @@ public:
 
     /// How many points lie in the strip. Throws std::invalid_argument as require_plane_strip()
     /// does.
-    std::size_t count(const PlaneStrip& strip, QueryCounts* counts = nullptr) const;
+    std::size_t count(const PlaneStrip& strip, StepCounts* counts = nullptr) const;
 
     /// Their numbers, in ascending order: as brute_force_numbers_in(). Throws likewise.
     std::vector<std::uint32_t>
-    numbers_in(const PlaneStrip& strip, QueryCounts* counts = nullptr) const;
+    numbers_in(const PlaneStrip& strip, StepCounts* counts = nullptr) const;
 
     /// The root first, and each node before its children. None where there are no points.
     std::span<const PartitionNode> nodes() const { return nodes_; }
@@ -87,7 +87,7 @@ public:
 
     /// By the node's hull; takes as many steps as the logarithm of its vertices.
     Inclusion
-    inclusion(const PartitionNode& node, const PlaneStrip& strip, QueryCounts& counts) const;
+    inclusion(const PartitionNode& node, const PlaneStrip& strip, StepCounts& counts) const;
 
     /// What the tree takes of memory, beside the points.
     std::size_t bytes() const;
@@ -99,7 +99,7 @@ private:
     /// others that do.
     template <typename Whole, typename Single>
     void
-    search(const PlaneStrip& strip, QueryCounts& counts, const Whole& whole, const Single& single)
+    search(const PlaneStrip& strip, StepCounts& counts, const Whole& whole, const Single& single)
         const;
 
     std::span<const PlanePoint> points_;

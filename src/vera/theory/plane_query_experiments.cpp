@@ -30,7 +30,7 @@ CountedSize nodes_of_half_planes(
     std::uint64_t most = 0;
     for (int i = 0; i < half_planes; ++i) {
         const PlaneDirection normal = some_normal(points, random);
-        QueryCounts counts;
+        StepCounts counts;
         tree.count(half_plane_near(points, normal, random), &counts);
         most = std::max(most, counts.nodes);
     }

@@ -57,7 +57,7 @@ IsoRectangle any_rectangle(std::mt19937_64& random) {
 
 /// Looks at all that a query has to look at, and tells nothing.
 struct StepsAlone {
-    QueryCounts& counts;
+    StepCounts& counts;
 
     bool enters(RayNode /*node*/) const { return true; }
 
@@ -84,7 +84,7 @@ Experiment of_trees(MadeRays made_rays, TreeKind kind, double exponent, double l
     experiment.count = [=](std::size_t size, std::uint64_t seed, const CancelFlag* cancel) {
         std::mt19937_64 random(seed);
         const RayTrees trees(made_rays(size, random), few, {}, cancel, kind);
-        QueryCounts counts;
+        StepCounts counts;
         for (int i = 0; i < rectangles; ++i)
             trees.visit(any_rectangle(random), counts, StepsAlone{counts});
         const auto m = static_cast<double>(size);
@@ -135,7 +135,7 @@ std::vector<Experiment> ray_search_experiments() {
     steps.count = [](std::size_t size, std::uint64_t seed, const CancelFlag* cancel) {
         std::mt19937_64 random(seed);
         const RaySegments segments(crossing_rays(size, random), {}, cancel);
-        QueryCounts counts;
+        StepCounts counts;
         for (int i = 0; i < rectangles; ++i)
             segments.rays_met(any_rectangle(random), &counts);
         const auto m = static_cast<double>(size);

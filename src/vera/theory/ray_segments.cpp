@@ -277,7 +277,7 @@ std::span<const std::uint32_t> rays_between(
     std::span<const std::uint32_t> row,
     std::int64_t lower,
     std::int64_t upper,
-    QueryCounts& counts,
+    StepCounts& counts,
     const Place& place) {
     ++counts.searches;
     const auto first = std::partition_point(row.begin(), row.end(), [&](std::uint32_t ray) {
@@ -294,7 +294,7 @@ std::span<const std::uint32_t> rays_between(
 } // namespace
 
 void RaySegments::search(
-    std::size_t node, const IsoRectangle& rectangle, Numbers& found, QueryCounts& counts) const {
+    std::size_t node, const IsoRectangle& rectangle, Numbers& found, StepCounts& counts) const {
     ++counts.nodes;
     const std::size_t rays = counts_[node];
     const auto entries = std::span(entries_).subspan(firsts_[node], rays * range_tree_levels(rays));
@@ -323,9 +323,9 @@ void RaySegments::search(
     }
 }
 
-Numbers RaySegments::rays_met(const IsoRectangle& rectangle, QueryCounts* counts) const {
+Numbers RaySegments::rays_met(const IsoRectangle& rectangle, StepCounts* counts) const {
     require_rectangles({&rectangle, 1});
-    QueryCounts steps;
+    StepCounts steps;
     Numbers found;
     const auto behind = std::upper_bound(starts_.begin(), starts_.end(), rectangle.z);
     if (behind == starts_.begin())

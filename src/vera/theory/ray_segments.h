@@ -38,7 +38,7 @@ public:
     /// order: as brute_force_rays_met(). Counts the rays whose places are compared with borders as
     /// points. Throws std::invalid_argument as require_rectangles() does.
     std::vector<std::uint32_t>
-    rays_met(const IsoRectangle& rectangle, QueryCounts* counts = nullptr) const;
+    rays_met(const IsoRectangle& rectangle, StepCounts* counts = nullptr) const;
 
     /// Into how many the rays are cut.
     std::size_t segment_count() const { return segment_count_; }
@@ -68,7 +68,7 @@ private:
         std::size_t node,
         const IsoRectangle& rectangle,
         std::vector<std::uint32_t>& found,
-        QueryCounts& counts) const;
+        StepCounts& counts) const;
 
     std::vector<SlopedRay> rays_;
     std::vector<std::int32_t> starts_;   ///< of the leaves' ranges of z; each ends before the next

@@ -135,7 +135,7 @@ struct EveryRay {
     const RayTrees& trees;
     const IsoRectangle& rectangle;
     Numbers& found;
-    QueryCounts& counts;
+    StepCounts& counts;
 
     bool enters(RayNode /*node*/) const { return true; }
 
@@ -161,7 +161,7 @@ struct EveryLiveRay {
     PlaneStrip x;
     PlaneStrip y;
     Numbers& found;
-    QueryCounts& counts;
+    StepCounts& counts;
 
     bool enters(RayNode node) const {
         ++counts.counters;
@@ -191,10 +191,10 @@ struct EveryLiveRay {
 
 } // namespace
 
-Numbers RayTrees::rays_met(const IsoRectangle& rectangle, QueryCounts* counts) const {
+Numbers RayTrees::rays_met(const IsoRectangle& rectangle, StepCounts* counts) const {
     require_rectangles({&rectangle, 1});
-    QueryCounts steps;
-    QueryCounts& counted = counts != nullptr ? *counts : steps;
+    StepCounts steps;
+    StepCounts& counted = counts != nullptr ? *counts : steps;
     Numbers found;
     visit(rectangle, counted, EveryRay{*this, rectangle, found, counted});
     std::sort(found.begin(), found.end());
@@ -242,7 +242,7 @@ LiveRays::LiveRays(const RayTrees& trees)
     , counts_(trees.node_count())
     , live_(trees.rays().size()) {}
 
-void LiveRays::add(std::uint32_t ray, QueryCounts& counts) {
+void LiveRays::add(std::uint32_t ray, StepCounts& counts) {
     VERA_CHECK(!is_live(ray));
     live_[ray] = 1;
     ++count_;
@@ -252,7 +252,7 @@ void LiveRays::add(std::uint32_t ray, QueryCounts& counts) {
     });
 }
 
-void LiveRays::remove(std::uint32_t ray, QueryCounts& counts) {
+void LiveRays::remove(std::uint32_t ray, StepCounts& counts) {
     VERA_CHECK(is_live(ray));
     live_[ray] = 0;
     --count_;
@@ -262,7 +262,7 @@ void LiveRays::remove(std::uint32_t ray, QueryCounts& counts) {
     });
 }
 
-void LiveRays::append_of(RayNode node, Numbers& rays, QueryCounts& counts) const {
+void LiveRays::append_of(RayNode node, Numbers& rays, StepCounts& counts) const {
     ++counts.counters;
     if (count_in(node) == 0)
         return;
@@ -282,7 +282,7 @@ void LiveRays::append_of(RayNode node, Numbers& rays, QueryCounts& counts) const
     }
 }
 
-Numbers LiveRays::rays_met(const IsoRectangle& rectangle, QueryCounts& counts) const {
+Numbers LiveRays::rays_met(const IsoRectangle& rectangle, StepCounts& counts) const {
     require_rectangles({&rectangle, 1});
     Numbers found;
     trees_.visit(
@@ -307,12 +307,12 @@ Numbers rays_by_first_z(std::span<const SlopedRay> rays) {
 FirstRectangles first_rectangles(
     std::span<const IsoRectangle> rectangles,
     const RayTrees& trees,
-    QueryCounts* counts,
+    StepCounts* counts,
     const Progress& progress,
     const CancelFlag* cancel) {
     require_rectangles(rectangles);
-    QueryCounts steps;
-    QueryCounts& counted = counts != nullptr ? *counts : steps;
+    StepCounts steps;
+    StepCounts& counted = counts != nullptr ? *counts : steps;
     FirstRectangles first(trees.rays().size());
     const Numbers beginnings = rays_by_first_z(trees.rays());
     auto begun = beginnings.begin();

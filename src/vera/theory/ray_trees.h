@@ -71,7 +71,7 @@ public:
     /// order: as brute_force_rays_met(). Looks at each ray whose line is met, also where that
     /// begins behind the rectangle. Throws std::invalid_argument as require_rectangles() does.
     std::vector<std::uint32_t>
-    rays_met(const IsoRectangle& rectangle, QueryCounts* counts = nullptr) const;
+    rays_met(const IsoRectangle& rectangle, StepCounts* counts = nullptr) const;
 
     /// Calls, for nodes that have no ray in common and together have all whose lines are met,
     ///
@@ -83,7 +83,7 @@ public:
     ///
     /// The node of open() is always one of the outer tree.
     template <typename Visitor>
-    void visit(const IsoRectangle& rectangle, QueryCounts& counts, Visitor&& visitor) const {
+    void visit(const IsoRectangle& rectangle, StepCounts& counts, Visitor&& visitor) const {
         if (!rays_.empty())
             visit_outer(
                 Strips{x_strip(rectangle), y_strip(rectangle)}, {&outer_, 0}, counts, visitor);
@@ -121,7 +121,7 @@ private:
 
     template <typename Visitor>
     void visit_outer(
-        const Strips& strips, RayNode node, QueryCounts& counts, const Visitor& visitor) const {
+        const Strips& strips, RayNode node, StepCounts& counts, const Visitor& visitor) const {
         if (!visitor.enters(node))
             return;
         const PartitionNode& held = node.node();
@@ -146,7 +146,7 @@ private:
 
     template <typename Visitor>
     void visit_inner(
-        const PlaneStrip& strip, RayNode node, QueryCounts& counts, const Visitor& visitor) const {
+        const PlaneStrip& strip, RayNode node, StepCounts& counts, const Visitor& visitor) const {
         if (!visitor.enters(node))
             return;
         const PartitionNode& held = node.node();
@@ -193,8 +193,8 @@ public:
     explicit LiveRays(const RayTrees& trees);
 
     /// The ray is not live, and now it is; or the other way round. O(log^2 m).
-    void add(std::uint32_t ray, QueryCounts& counts);
-    void remove(std::uint32_t ray, QueryCounts& counts);
+    void add(std::uint32_t ray, StepCounts& counts);
+    void remove(std::uint32_t ray, StepCounts& counts);
 
     std::size_t count() const { return count_; }
 
@@ -203,10 +203,10 @@ public:
     bool is_live(std::uint32_t ray) const { return live_[ray] != 0; }
 
     /// Appends the live ones of the node's rays: O(log m) each.
-    void append_of(RayNode node, std::vector<std::uint32_t>& rays, QueryCounts& counts) const;
+    void append_of(RayNode node, std::vector<std::uint32_t>& rays, StepCounts& counts) const;
 
     /// The live rays whose lines the rectangle meets, in no order that matters.
-    std::vector<std::uint32_t> rays_met(const IsoRectangle& rectangle, QueryCounts& counts) const;
+    std::vector<std::uint32_t> rays_met(const IsoRectangle& rectangle, StepCounts& counts) const;
 
 private:
     const RayTrees& trees_;
@@ -221,7 +221,7 @@ private:
 FirstRectangles first_rectangles(
     std::span<const IsoRectangle> rectangles,
     const RayTrees& trees,
-    QueryCounts* counts = nullptr,
+    StepCounts* counts = nullptr,
     const Progress& progress = {},
     const CancelFlag* cancel = nullptr);
 

@@ -275,7 +275,7 @@ VisiblePieces SeenSides::pieces() {
             result.pieces.back().to = number(part.to);
         else
             result.pieces.push_back(
-                {from, number(part.to), edges_.edges[part.edge], part.left, part.right, 0, 0});
+                {from, number(part.to), edges_.edges[part.edge], part.left, part.right});
         before = &part;
     }
     return result;

@@ -86,7 +86,7 @@ private:
 /// One ray's way through the tree.
 class SingleTreeSearch {
 public:
-    SingleTreeSearch(const SingleTree& tree, const WholeRay& ray, QueryCounts& counts)
+    SingleTreeSearch(const SingleTree& tree, const WholeRay& ray, StepCounts& counts)
         : tree_(tree)
         , ray_(ray)
         , half_planes_(condition_half_planes(ray))
@@ -146,7 +146,7 @@ private:
     const SingleTree& tree_;
     const WholeRay& ray_;
     std::array<PlaneStrip, side_condition_count> half_planes_;
-    QueryCounts& counts_;
+    StepCounts& counts_;
     NearestRectangle first_;
 };
 
@@ -179,8 +179,8 @@ SingleTree::SingleTree(
 }
 
 std::optional<std::uint32_t>
-SingleTree::first_rectangle(const WholeRay& ray, QueryCounts* counts) const {
-    QueryCounts steps;
+SingleTree::first_rectangle(const WholeRay& ray, StepCounts* counts) const {
+    StepCounts steps;
     return SingleTreeSearch(*this, ray, counts != nullptr ? *counts : steps).first();
 }
 
