@@ -30,6 +30,7 @@ std::span<const Experiment> experiments() {
              {plane_query_experiments,
               nested_trees_experiments,
               ray_search_experiments,
+              sweep_experiments,
               dual_experiments,
               visible_surface_experiments,
               terrain_experiments}) {

@@ -61,6 +61,7 @@ std::span<const Experiment> experiments();
 std::vector<Experiment> plane_query_experiments();
 std::vector<Experiment> nested_trees_experiments();
 std::vector<Experiment> ray_search_experiments();
+std::vector<Experiment> sweep_experiments();
 std::vector<Experiment> dual_experiments();
 std::vector<Experiment> visible_surface_experiments();
 std::vector<Experiment> terrain_experiments();
