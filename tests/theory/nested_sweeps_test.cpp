@@ -31,10 +31,15 @@ TEST(NestedSweeps, FindTheRectanglesThatLookingAtEachFindsAtEveryLevel) {
             for (const std::size_t level : {0U, 1U, 2U, 4U, 7U}) {
                 ASSERT_EQ(nested_sweeps_first_rectangles(level, rectangles, rays), expected)
                     << family.name << ", level " << level;
-                asked += rays.size();
+                ASSERT_EQ(
+                    nested_sweeps_first_rectangles(
+                        level, rectangles, rays, nullptr, {}, nullptr, TreeKind::optimal),
+                    expected)
+                    << family.name << ", level " << level << ", trees of today";
+                asked += 2 * rays.size();
             }
         }
-    EXPECT_GT(asked, 20000U);
+    EXPECT_GT(asked, 40000U);
 }
 
 struct Crowd {

@@ -49,7 +49,7 @@ void compare(
 TEST(NestedTrees, FindTheRectangleThatLookingAtEachFinds) {
     Random random(1988);
     Answers answers;
-    for (int round = 0; round < 400; ++round) {
+    for (int round = 0; round < 700; ++round) {
         const std::size_t count = random() % 50;
         // Rays through corners and along borders, planes and rectangles that coincide.
         const std::int32_t reach = round % 2 == 0 ? 2 : 6;

@@ -134,12 +134,12 @@ crossings_per_pair(std::span<const SlopedRay> rays, std::int32_t first_z, std::i
 
 } // namespace
 
-std::size_t stated_level(std::size_t rectangles, std::size_t rays) {
+std::size_t stated_level(std::size_t rectangles, std::size_t rays, TreeKind kind) {
     if (rectangles == 0 || rays == 0)
         return 0;
     const double level =
         (2 * std::log2(static_cast<double>(rays)) - std::log2(static_cast<double>(rectangles)))
-        / (1 + alpha);
+        / (1 + (kind == TreeKind::optimal ? 0.5 : alpha));
     return std::min(
         static_cast<std::size_t>(std::lround(std::fmax(level, 0))), largest_level(rays));
 }

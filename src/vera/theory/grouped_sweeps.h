@@ -12,6 +12,7 @@
 #pragma once
 
 #include "vera/theory/space_sweep.h"
+#include "vera/theory/tree_kind.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -20,8 +21,9 @@
 namespace vera {
 
 /// The level i at which proposition 5 cuts the trees: (2 log m - log n) / (1 + alpha), but from 0
-/// to log m.
-std::size_t stated_level(std::size_t rectangles, std::size_t rays);
+/// to log m. With partition trees of today alpha is 0.5, and both parts are (m n)^(2/3).
+std::size_t
+stated_level(std::size_t rectangles, std::size_t rays, TreeKind kind = TreeKind::conjugation);
 
 /// The level at which the steps are likely to be fewest: by the crossings among a thousand pairs of
 /// the rays within the range of the rectangles. 0, which is one sweep of all, where rays that come

@@ -161,18 +161,20 @@ FirstRectangles nested_sweeps_first_rectangles(
     std::span<const SlopedRay> rays,
     NestedSweepCounts* counts,
     const Progress& progress,
-    const CancelFlag* cancel) {
+    const CancelFlag* cancel,
+    TreeKind kind) {
     require_rectangles(rectangles);
     const std::size_t depth = std::min<std::size_t>(level, 31);
     const std::size_t few =
         std::max<std::size_t>((rays.size() + (std::size_t{1} << depth) - 1) >> depth, 1);
     // A ray is in the sweep of one node of the outer tree, and of one of each inner tree above it.
     require_memory(
-        static_cast<double>(depth + 2) * KineticRangeTree::bytes_forecast(rays.size())
-            + RayTrees::bytes_forecast(rays.size(), few),
+        depth_factor(kind) * static_cast<double>(depth + 2)
+                * KineticRangeTree::bytes_forecast(rays.size())
+            + RayTrees::bytes_forecast(rays.size(), few, kind),
         "nested sweeps of " + std::to_string(rays.size()) + " rays",
         "fewer rays at a time, and trees that are cut higher, take less");
-    const RayTrees trees(rays, few, {}, cancel);
+    const RayTrees trees(rays, few, {}, cancel, kind);
     FirstRectangles first(rays.size());
     if (rectangles.empty() || rays.empty())
         return first;

@@ -32,6 +32,7 @@ FirstRectangles nested_sweeps_first_rectangles(
     std::span<const SlopedRay> rays,
     NestedSweepCounts* counts = nullptr,
     const Progress& progress = {},
-    const CancelFlag* cancel = nullptr);
+    const CancelFlag* cancel = nullptr,
+    TreeKind kind = TreeKind::conjugation);
 
 } // namespace vera
