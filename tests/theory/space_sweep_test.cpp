@@ -158,6 +158,35 @@ TEST(SpaceSweep, TakesStepsThatGrowNoFasterThanThePaperSays) {
     }
 }
 
+TEST(SpaceSweep, ComparesNoDepthsSinceRectanglesComeInTheirOrder) {
+    Random random(12);
+    for (const std::int32_t side : {2000, 5000, 20000}) {
+        const Rectangles rectangles = testing::rectangles_within(512, 20000, side, random);
+        const SlopedRays rays = testing::pencil_of_rays(512, 20000, 1, random);
+        std::uint64_t pairs = 0;
+        for (const SlopedRay& ray : rays)
+            for (const IsoRectangle& rectangle : rectangles)
+                pairs += meets(ray, rectangle) ? 1 : 0;
+        // As a depth buffer does it: everything that a ray meets is told, and compared.
+        SweepCounts all;
+        std::uint64_t told = 0;
+        const auto tells = [&](std::uint32_t /*rectangle*/, std::uint32_t /*ray*/) {
+            ++told;
+            return largest_plane_coordinate;
+        };
+        sweep(rectangles, {rays}, tells, &all);
+        EXPECT_EQ(told, pairs);
+        EXPECT_EQ(all.reports, pairs);
+        SweepCounts first;
+        const FirstRectangles found = sweep_first_rectangles(rectangles, rays, &first);
+        const auto met =
+            std::ranges::count_if(found, [](const auto& of) { return of.has_value(); });
+        EXPECT_EQ(first.reports, static_cast<std::uint64_t>(met)) << "each is told once";
+        RecordProperty("pairs_" + std::to_string(side), std::to_string(pairs));
+        RecordProperty("told_" + std::to_string(side), std::to_string(first.reports));
+    }
+}
+
 TEST(SpaceSweep, IsRefusedBeforeMemoryRunsOut) {
     const Rectangles rectangles(3);
     const SlopedRays rays(200'000);

@@ -53,6 +53,8 @@ public:
     std::optional<std::uint32_t>
     first_rectangle(const WholeRay& ray, StepCounts* counts = nullptr) const;
 
+    std::span<const IsoRectangle> rectangles() const { return rectangles_; }
+
     /// What it takes of memory.
     std::size_t bytes() const;
 
