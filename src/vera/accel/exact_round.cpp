@@ -9,6 +9,9 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "vera/accel/exact_round.cpp"
 #include <hwy/foreach_target.h>
+// Behind the line above, which includes this file once for each instruction set.
+#include "vera/accel/exact_lanes-inl.h"
+
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
@@ -16,20 +19,6 @@ HWY_BEFORE_NAMESPACE();
 namespace vera::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
-
-using Doubles = hn::CappedTag<double, packet_size>;
-using Vec = hn::Vec<Doubles>;
-using Mask = hn::Mask<Doubles>;
-
-HWY_INLINE Vec row(const RayRows::Row& values, std::size_t lane) {
-    return hn::Load(Doubles(), values.data() + lane);
-}
-
-HWY_INLINE LaneMask bits(Mask mask, std::size_t lane) {
-    std::uint8_t bytes[8] = {};
-    hn::StoreMaskBits(Doubles(), mask, bytes);
-    return (LaneMask{bytes[0]} & ((LaneMask{1} << hn::Lanes(Doubles())) - 1)) << lane;
-}
 
 HWY_INLINE Mask mask_of(LaneMask lanes, std::size_t lane) {
     const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(lanes >> lane)};
@@ -41,15 +30,6 @@ HWY_INLINE void load3(const std::array<RayRows::Row, 3>& rows, std::size_t lane,
         result[i] = row(rows[i], lane);
 }
 
-/// dot()
-HWY_INLINE Vec dot3(const Vec (&a)[3], const Vec (&b)[3]) {
-    return hn::Add(hn::Add(hn::Mul(a[0], b[0]), hn::Mul(a[1], b[1])), hn::Mul(a[2], b[2]));
-}
-
-HWY_INLINE Vec largest3(const Vec (&a)[3]) {
-    return hn::Max(hn::Max(hn::Abs(a[0]), hn::Abs(a[1])), hn::Abs(a[2]));
-}
-
 /// PreparedRay::start_distance()
 HWY_INLINE Vec start_distance(const Frame& frame, std::size_t lane, Vec coordinate_size) {
     Vec origin[3];
@@ -57,13 +37,6 @@ HWY_INLINE Vec start_distance(const Frame& frame, std::size_t lane, Vec coordina
     return hn::Add(
         row(frame.rays.origin_error, lane),
         hn::Mul(hn::Set(Doubles(), 0x1p-48), hn::Max(coordinate_size, largest3(origin))));
-}
-
-/// PreparedRay::covers()
-HWY_INLINE Mask covers(const Frame& frame, std::size_t lane, Vec t) {
-    return hn::And(
-        hn::And(hn::Ge(t, row(frame.rays.t_min, lane)), hn::Le(t, row(frame.rays.t_max, lane))),
-        hn::Le(hn::Abs(t), hn::Set(Doubles(), std::numeric_limits<double>::max())));
 }
 
 HWY_INLINE void
@@ -285,10 +258,9 @@ HWY_INLINE void cross_all(
     LaneMask starting,
     const Rows& rows,
     RoundCrossings& crossings) {
-    constexpr std::size_t width = hn::MaxLanes(Doubles());
     crossings.undecided = crossings.met[0] = crossings.met[1] = 0;
     for (std::size_t lane = 0; lane < packet_size; lane += hn::Lanes(Doubles()))
-        if ((lanes >> lane & ((LaneMask{1} << width) - 1)) != 0)
+        if (any_in_vector(lanes, lane))
             cross_part(frame, rows, starting, lane, crossings);
     crossings.undecided &= lanes;
     for (LaneMask& met : crossings.met)

@@ -8,6 +8,9 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "vera/accel/exact_triangles.cpp"
 #include <hwy/foreach_target.h>
+// Behind the line above, which includes this file once for each instruction set.
+#include "vera/accel/exact_lanes-inl.h"
+
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
@@ -15,23 +18,6 @@ HWY_BEFORE_NAMESPACE();
 namespace vera::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
-
-using Doubles = hn::CappedTag<double, packet_size>;
-using Vec = hn::Vec<Doubles>;
-
-HWY_INLINE Vec row(const RayRows::Row& values, std::size_t lane) {
-    return hn::Load(Doubles(), values.data() + lane);
-}
-
-HWY_INLINE void store(Vec value, RayRows::Row& values, std::size_t lane) {
-    hn::Store(value, Doubles(), values.data() + lane);
-}
-
-/// The coordinate along one of three axes, which lanes choose by being in one of two masks or not.
-template <typename Mask>
-HWY_INLINE Vec chosen(Mask first, Vec a, Mask second, Vec b, Vec c) {
-    return hn::IfThenElse(first, a, hn::IfThenElse(second, b, c));
-}
 
 void prepare_rays_kernel(Frame& frame) {
     const Doubles d;
@@ -61,14 +47,6 @@ void prepare_rays_kernel(Frame& frame) {
             prepared.origin_size,
             lane);
     }
-}
-
-HWY_INLINE Vec sum3(Vec a, Vec b, Vec c) {
-    return hn::Add(hn::Add(a, b), c);
-}
-
-HWY_INLINE Vec largest3(const Vec (&a)[3]) {
-    return hn::Max(hn::Max(hn::Abs(a[0]), hn::Abs(a[1])), hn::Abs(a[2]));
 }
 
 HWY_INLINE Vec size3(const Vec (&a)[3]) {
@@ -118,10 +96,8 @@ cross_part(const Frame& frame, const TriangleRows& triangles, std::size_t lane, 
         sum3(hn::Mul(u, z[0]), hn::Mul(v, z[1]), hn::Mul(w, z[2])),
         hn::Mul(area, row(prepared.direction_z, lane)));
     const Vec t_min = row(frame.rays.t_min, lane);
-    const auto covered = hn::And(
-        hn::And(hn::Ge(t, t_min), hn::Le(t, row(frame.rays.t_max, lane))),
-        hn::Le(hn::Abs(t), hn::Set(d, std::numeric_limits<double>::max())));
-    hn::Store(t, d, ts.data() + lane);
+    const auto covered = covers(frame, lane, t);
+    store(t, ts, lane);
 
     Vec ab[3];
     Vec ac[3];
@@ -145,24 +121,18 @@ cross_part(const Frame& frame, const TriangleRows& triangles, std::size_t lane, 
         hn::Mul(start_distance, size3(normal)),
         hn::Mul(
             hn::Mul(hn::Mul(hn::Set(d, 0x1p-50), size3(ab)), size3(ac)), largest3(from_origin)));
-    const Vec distance = sum3(
-        hn::Mul(normal[0], from_origin[0]),
-        hn::Mul(normal[1], from_origin[1]),
-        hn::Mul(normal[2], from_origin[2]));
+    const Vec distance = dot3(normal, from_origin);
     const auto starts = hn::And(hn::Ge(t_min, zero), hn::Le(hn::Abs(distance), bound));
     const auto met =
         hn::AndNot(starts, hn::And(hn::Or(left, right), hn::AndNot(hn::Eq(area, zero), covered)));
-    std::uint8_t bytes[8] = {};
-    hn::StoreMaskBits(d, met, bytes);
-    return (LaneMask{bytes[0]} & ((LaneMask{1} << hn::Lanes(d)) - 1)) << lane;
+    return bits(met, lane);
 }
 
 LaneMask cross_triangles_kernel(
     const Frame& frame, LaneMask lanes, const TriangleRows& triangles, RayRows::Row& t) {
-    constexpr std::size_t width = hn::MaxLanes(Doubles());
     LaneMask met = 0;
     for (std::size_t lane = 0; lane < packet_size; lane += hn::Lanes(Doubles()))
-        if ((lanes >> lane & ((LaneMask{1} << width) - 1)) != 0)
+        if (any_in_vector(lanes, lane))
             met |= cross_part(frame, triangles, lane, t);
     return met & lanes;
 }

@@ -2,6 +2,7 @@
 #include "vera/accel/packet_query.h"
 
 #include "vera/accel/every_crossing.h"
+#include "vera/accel/exact_polygons.h"
 #include "vera/accel/exact_round.h"
 #include "vera/accel/exact_triangles.h"
 #include "vera/base/check.h"
@@ -225,33 +226,68 @@ void search_plainly(PacketQuery& query, Frame& frame, std::uint32_t element, Lan
     refresh_limits(query, frame, lanes);
 }
 
+namespace {
+
+void make_prepared_rows(Frame& frame) {
+    if (frame.prepared_rows.made)
+        return;
+    prepare_rays(frame);
+    frame.prepared_rows.made = true;
+}
+
+/// So many rays or more are tested together against a polygon of many corners.
+constexpr int few_lanes = 3;
+
+} // namespace
+
 void test_exactly(PacketQuery& query, Frame& frame, std::uint32_t element, LaneMask lanes) {
     const Geometry& geometry = *frame.local->geometry;
+    const OutlineTable& outlines = frame.local->outlines;
     const Element place = element_at(geometry, element);
-    const MaterialId material = resolved(geometry.items[place.item].material, frame.material);
+    const Item& item = geometry.items[place.item];
+    const MaterialId material = resolved(item.material, frame.material);
     const std::uint64_t primitive = frame.first_primitive
         + (geometry.calls.empty() ? element : primitive_number(geometry, place));
-    const bool plane = is_plane(geometry, place);
+    const auto start_piece = [&](std::size_t lane) {
+        return frame.start_element[lane] == element ? query.rays[lane].start.piece : no_piece;
+    };
+    const auto lower_limit = [&](std::size_t lane) {
+        ++query.changes;
+        frame.limit[lane] = std::min(frame.limit[lane], limit_of(query, frame, lane));
+    };
+    if (is_plane(geometry, place))
+        for (LaneMask rest = lanes; rest != 0; rest &= rest - 1)
+            if (start_piece(static_cast<std::size_t>(std::countr_zero(rest))) != no_piece)
+                lanes &= ~(rest & -rest);
+    const OutlineStrips* const outline =
+        item.kind == ItemKind::polygon ? outlines.of_polygon(item.index) : nullptr;
+    if (outline != nullptr && std::popcount(lanes) >= few_lanes) {
+        const Polygon& polygon = geometry.polygons[item.index];
+        const Vec3& corner = corners_of(geometry, polygon).front();
+        PolygonCrossings crossings;
+        make_prepared_rows(frame);
+        cross_polygon(frame, lanes, corner, polygon.normal, outlines, *outline, crossings);
+        for (LaneMask rest = crossings.met; rest != 0; rest &= rest - 1) {
+            const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+            if (take_crossing(query, lane, crossings.t[lane], {primitive, 0}, material))
+                lower_limit(lane);
+        }
+        lanes = crossings.undecided;
+    }
     for (LaneMask rest = lanes; rest != 0; rest &= rest - 1) {
         const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-        const std::uint32_t start_piece =
-            frame.start_element[lane] == element ? query.rays[lane].start.piece : no_piece;
-        if (plane && start_piece != no_piece)
-            continue;
         bool changed = false;
         for_each_crossing(
             geometry,
-            frame.local->outlines,
+            outlines,
             place,
             prepared_ray(frame, lane),
-            start_piece,
+            start_piece(lane),
             [&](double t, std::uint32_t piece) {
                 changed = take_crossing(query, lane, t, {primitive, piece}, material) || changed;
             });
-        if (changed) {
-            ++query.changes;
-            frame.limit[lane] = std::min(frame.limit[lane], limit_of(query, frame, lane));
-        }
+        if (changed)
+            lower_limit(lane);
     }
 }
 
@@ -322,10 +358,7 @@ void decide_triangles(
         for (const Vec3* corner : places[lane].corner)
             hwy::Prefetch(corner);
     }
-    if (!frame.prepared_rows.made) {
-        prepare_rays(frame);
-        frame.prepared_rows.made = true;
-    }
+    make_prepared_rows(frame);
     TriangleRows triangles;
     for (LaneMask rest = lanes; rest != 0; rest &= rest - 1) {
         const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
@@ -338,6 +371,27 @@ void decide_triangles(
     }
     RayRows::Row t;
     const LaneMask met = cross_triangles(frame, lanes, triangles, t);
+    take_crossings(query, frame, met, elements, t);
+}
+
+void decide_quadrangles(
+    PacketQuery& query, Frame& frame, LaneMask lanes, const ElementRow& elements) {
+    const Geometry& geometry = *frame.local->geometry;
+    QuadrangleRows quadrangles;
+    for (LaneMask rest = lanes; rest != 0; rest &= rest - 1) {
+        const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+        const std::uint32_t item = element_at(geometry, elements[lane]).item;
+        const Polygon& polygon = geometry.polygons[geometry.items[item].index];
+        const Vec3* const corners = geometry.corners.data() + polygon.first_corner;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            for (std::size_t i = 0; i < 4; ++i)
+                quadrangles.corners[i][axis][lane] = corners[i][axis];
+            quadrangles.normal[axis][lane] = polygon.normal[axis];
+        }
+    }
+    make_prepared_rows(frame);
+    RayRows::Row t;
+    const LaneMask met = cross_quadrangles(frame, lanes, quadrangles, t);
     take_crossings(query, frame, met, elements, t);
 }
 
@@ -400,12 +454,14 @@ LaneMask lanes_of(std::uint32_t element, LaneMask lanes, const ElementRow& eleme
 }
 
 /// The way in which an element's crossings with a ray are decided.
-enum class Decision : std::uint8_t { triangle, sphere, mantle, by_itself };
+enum class Decision : std::uint8_t { triangle, quadrangle, sphere, mantle, by_itself };
 
 Decision decision_of(ElementRecord::Kind kind) {
     switch (kind) {
     case ElementRecord::Kind::triangle:
         return Decision::triangle;
+    case ElementRecord::Kind::quadrangle:
+        return Decision::quadrangle;
     case ElementRecord::Kind::sphere:
         return Decision::sphere;
     case ElementRecord::Kind::mantle:
@@ -425,7 +481,7 @@ void decide(PacketQuery& query, Frame& frame, LaneMask lanes) {
         const LaneMask taken = take_candidates(frame, lanes & query.active, elements);
         if (taken == 0)
             break;
-        std::array<LaneMask, 4> by_decision = {};
+        std::array<LaneMask, 5> by_decision = {};
         for (LaneMask rest = taken; rest != 0; rest &= rest - 1) {
             const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
             const Candidates::Candidate& candidate = candidates.all[elements[lane]];
@@ -433,7 +489,7 @@ void decide(PacketQuery& query, Frame& frame, LaneMask lanes) {
             by_decision[static_cast<std::size_t>(decision_of(candidate.kind))] |= LaneMask{1}
                 << lane;
         }
-        const auto [triangles, spheres, mantles, others] = by_decision;
+        const auto [triangles, quadrangles, spheres, mantles, others] = by_decision;
         for (LaneMask rest = others; rest != 0;) {
             const std::uint32_t element =
                 elements[static_cast<std::size_t>(std::countr_zero(rest))];
@@ -444,6 +500,8 @@ void decide(PacketQuery& query, Frame& frame, LaneMask lanes) {
         const Geometry& geometry = *frame.local->geometry;
         if (triangles != 0)
             decide_triangles(query, frame, triangles, elements);
+        if (quadrangles != 0)
+            decide_quadrangles(query, frame, quadrangles, elements);
         if (spheres != 0)
             decide_round<SphereRows>(
                 query, frame, spheres, elements, geometry.spheres, cross_spheres);

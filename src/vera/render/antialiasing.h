@@ -16,8 +16,8 @@ namespace vera {
 /// asks what is hit. A pixel is refined, to `samples` rays, where a neighbour of the eight shows
 /// another surface (see same_surface), or a colour that differs by more than the tolerance from its
 /// own, unless the colours of one surface change evenly from that neighbour to the opposite one.
-/// It gets a quarter of these rays first, well spread, and no more where they and the centre agree
-/// in colour to within the tolerance.
+/// It gets a quarter of these rays first, but no fewer than 4, well spread, and no more where they
+/// and the centre agree in colour to within the tolerance.
 ///
 /// A thing is thin where one of a pixel's rays sees it but fewer than 5 of the 5 x 5 centres around
 /// do. Where one of 12 rays along a side of such a pixel, which only ask what is hit, sees

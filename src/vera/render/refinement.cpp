@@ -107,14 +107,14 @@ std::uint64_t TileRefiner::picture_pixel(std::size_t pixel) const {
 
 std::uint32_t TileRefiner::samples_wanted(const Pixel& pixel) const {
     constexpr std::uint32_t most = 256;
-    constexpr std::uint32_t least_in_parts = 8;
+    constexpr std::uint32_t least_part = 4; // two agree by chance too often
     const std::uint32_t samples = picture_.settings.samples;
     if (pixel.wanted == Refinement::thin_alone)
         return std::max(samples, std::min(2 * samples, most));
     // The beginning of a net of samples is a net itself.
-    const bool in_parts = pixel.wanted == Refinement::edge && samples >= least_in_parts;
+    const bool in_parts = pixel.wanted == Refinement::edge && samples > least_part;
     if (in_parts && (pixel.samples == 0 || !differ(pixel)))
-        return samples / 4;
+        return std::max(samples / 4, least_part);
     return samples;
 }
 

@@ -19,7 +19,7 @@ namespace vera {
 /// How far a pixel is refined.
 enum class Refinement : std::uint8_t {
     center,    ///< one ray
-    edge,      ///< a quarter of Antialiasing::samples, and all of them where these differ
+    edge,      ///< a quarter of Antialiasing::samples, 4 at least, and all where these differ
     thin,      ///< all of them
     thin_alone ///< twice as many
 };

@@ -118,17 +118,18 @@ touched_cells(const OutlineStrips& outline, const Vec3& a, const Vec3& b, double
     const double along = b.*outline.u_axis - a_u;
     const double rise = b.*outline.v_axis - a_v;
     double ends[2] = {a_u, a_u + along};
+    double off = 1; // what is rounded moves ends by less than 2^-48 of the size, times this
     if (rise != 0) {
         const double parts[2] = {
             std::clamp((from - a_v) / rise, 0.0, 1.0), std::clamp((to - a_v) / rise, 0.0, 1.0)};
         for (std::size_t i = 0; i < 2; ++i)
             ends[i] = a_u + parts[i] * along;
+        off += std::abs(along / rise);
     }
-    // One more on either side for what is rounded: see set_cells().
-    const std::uint32_t first = cell_at(outline, std::min(ends[0], ends[1]));
-    const std::uint32_t last = cell_at(outline, std::max(ends[0], ends[1]));
+    const double margin = 0x1p-48 * outline.size * off;
     return cells_between(
-        std::max(first, std::uint32_t{1}) - 1, std::min(last + 1, StripCells::count - 1));
+        cell_at(outline, std::min(ends[0], ends[1]) - margin),
+        cell_at(outline, std::max(ends[0], ends[1]) + margin));
 }
 
 /// How often the outline turns about a place that no side of the strip comes near.
@@ -159,8 +160,8 @@ void set_cells(OutlineTable& table, OutlineStrips& outline, std::span<const Vec3
     const double lower_v = outline.bounds.lower.*outline.v_axis;
     const double width = outline.bounds.upper.*outline.u_axis - lower_u;
     const double height = outline.bounds.upper.*outline.v_axis - lower_v;
-    // Where cells are far larger than what is rounded, it moves nothing by more than a cell; and a
-    // strip that is not far higher than that is never asked about: margins are larger.
+    // Cells that are not far larger than what is rounded are no use; and a strip that is not far
+    // higher than that is never asked about: margins are larger.
     constexpr double least_part = 0x1p-20;
     if (outline.strip_count == 1 || !(std::min(width, height) > least_part * outline.size))
         return;
