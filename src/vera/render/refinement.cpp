@@ -32,10 +32,8 @@ double largest_difference(Color a, Color b) {
 /// Whether at least so many places of the window show the same surface as one does.
 template <typename Window>
 bool shows(const Window& window, const Seen& one, int wanted) {
-    for (const Seen* other : window)
-        if (same_surface(one, *other) && --wanted == 0)
-            return true;
-    return false;
+    return window.any(
+        [&](const Seen& other) { return same_surface(one, other) && --wanted == 0; });
 }
 
 template <typename Window>
@@ -47,13 +45,14 @@ bool is_thin(const Window& window, const Seen& one) {
 /// another surface has cancelled one of its own at most (Boyer and Moore 1991).
 template <typename Window>
 const Seen& commonest(const Window& window) {
-    const Seen* candidate = window.front();
+    const Seen* candidate = nullptr;
     int lead = 0;
-    for (const Seen* one : window) {
+    window.any([&](const Seen& one) {
         if (lead == 0)
-            candidate = one;
-        lead += same_surface(*candidate, *one) ? 1 : -1;
-    }
+            candidate = &one;
+        lead += same_surface(*candidate, one) ? 1 : -1;
+        return false;
+    });
     return *candidate;
 }
 
@@ -124,11 +123,7 @@ bool TileRefiner::differ(const Pixel& pixel) const {
 
 TileRefiner::Window TileRefiner::window(std::size_t pixel) const {
     const std::size_t stride = tile_.width + 2 * frame;
-    const Seen* corner = &centers_[center_of(pixel) - frame * stride - frame];
-    Window window;
-    for (std::size_t i = 0; i < window.size(); ++i)
-        window[i] = corner + i / window_side * stride + i % window_side;
-    return window;
+    return {&centers_[center_of(pixel) - frame * stride - frame], stride};
 }
 
 QueryRay TileRefiner::center_ray(std::size_t center) const {
@@ -200,7 +195,7 @@ void TileRefiner::find_edges() {
         if (differs(around))
             want(
                 pixel,
-                is_thin(around, *around[middle]) ? refinement_of_thin(around) : Refinement::edge);
+                is_thin(around, around[middle]) ? refinement_of_thin(around) : Refinement::edge);
     }
 }
 
@@ -214,10 +209,10 @@ Seen TileRefiner::seen_by_ray(std::size_t ray) const {
 
 bool TileRefiner::differs(const Window& window) const {
     const double tolerance = picture_.settings.tolerance;
-    const Seen& own = *window[middle];
+    const Seen& own = window[middle];
     for (const auto& [first, second] : opposites) {
-        const Seen& one = *window[first];
-        const Seen& other = *window[second];
+        const Seen& one = window[first];
+        const Seen& other = window[second];
         if (!same_surface(own, one) || !same_surface(own, other))
             return true;
         if (largest_difference(own.color, one.color) <= tolerance
@@ -318,8 +313,9 @@ void TileRefiner::see_centers_around(std::span<const Job> jobs) {
     const std::size_t stride = tile_.width + 2 * frame;
     for (const Job& job : jobs) {
         const std::size_t corner = center_of(job.pixel) - frame * stride - frame;
-        for (std::size_t i = 0; i < window_side * window_side; ++i)
-            targets_.push_back(corner + i / window_side * stride + i % window_side);
+        for (std::size_t row = 0; row < Window::side; ++row)
+            for (std::size_t column = 0; column < Window::side; ++column)
+                targets_.push_back(corner + row * stride + column);
     }
     see_unknown_centers();
 }
@@ -349,10 +345,10 @@ void TileRefiner::add_samples(const Job& job, std::size_t first_ray) {
 
 bool TileRefiner::sees_thin_things(const Job& job, std::size_t first_ray) const {
     const Window around = window(job.pixel);
-    const bool own_is_thin = is_thin(around, *around[middle]);
+    const bool own_is_thin = is_thin(around, around[middle]);
     for (std::uint32_t i = 0; i < job.last_sample - job.first_sample; ++i) {
         const Seen sample = seen_by_ray(first_ray + i);
-        if (!own_is_thin && same_surface(*around[middle], sample))
+        if (!own_is_thin && same_surface(around[middle], sample))
             continue;
         if (is_thin(around, sample))
             return true;

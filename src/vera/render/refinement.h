@@ -84,9 +84,28 @@ private:
         Color most;
     };
 
-    /// The centres in a pixel's surroundings, row by row.
-    static constexpr std::size_t window_side = 5;
-    using Window = std::array<const Seen*, window_side * window_side>;
+    /// The centres in a pixel's surroundings.
+    struct Window {
+        static constexpr std::size_t side = 5;
+
+        const Seen* corner = nullptr;
+        std::size_t stride = 0; ///< from row to row
+
+        /// Of the places row by row.
+        const Seen& operator[](std::size_t place) const {
+            return corner[place / side * stride + place % side];
+        }
+
+        /// Calls visit(centre), row by row, until it returns true; returns whether it did.
+        template <typename Visit>
+        bool any(const Visit& visit) const {
+            for (const Seen* row = corner; row != corner + side * stride; row += stride)
+                for (const Seen* one = row; one != row + side; ++one)
+                    if (visit(*one))
+                        return true;
+            return false;
+        }
+    };
 
     void begin(const Tile& tile);
     void see_all_centers();
