@@ -34,16 +34,16 @@ class Results:
 
     def __init__(self, name):
         self.machine = name
-        (self.peers, self.rays, self.growth, self.billion, self.drawings, self.engines, self.faces, self.leaks,
+        (self.peers, self.errors, self.rays, self.growth, self.billion, self.drawings, self.engines, self.faces, self.leaks,
          self.sizes) = (self.load(kind) for kind in (
-             "peers", "rays", "growth", "billion", "drawings", "engines", "faces", "leaks", "sizes"))
+             "peers", "errors", "rays", "growth", "billion", "drawings", "engines", "faces", "leaks", "sizes"))
 
     def load(self, kind):
         path = RESULTS / f"{kind}-{self.machine}.json"
         return json.loads(path.read_text()) if path.exists() else None
 
     def parts(self):
-        return [part for part in (self.peers, self.rays, self.growth, self.billion, self.drawings, self.engines,
+        return [part for part in (self.peers, self.errors, self.rays, self.growth, self.billion, self.drawings, self.engines,
                                   self.faces, self.leaks, self.sizes) if part]
 
     def rays_on(self, threads):
@@ -474,6 +474,13 @@ def peers_table(results):
     return table(head, rows) if rows else None
 
 
+def errors_table(results):
+    rows = [[f"{row['scene']}, {row['side']}", *(f"{row[program][i]:.2f}" for i in range(3) for program in ("vera", "povray"))]
+            for row in (results.errors["rows"] if results.errors else [])]
+    head = ["of 255", "mean", "POV-Ray", "root mean square", "POV-Ray", "% of pixels over 8", "POV-Ray"]
+    return table(head, rows) if rows else None
+
+
 def tachyon_table(results):
     rows = []
     for row in results.peers.get("tachyon", []) if results.peers else []:
@@ -600,7 +607,7 @@ def sizes_table(results):
 TABLES = {"drawings": drawings_table, "drawn lines": drawn_lines_table, "drawing exponents": drawing_exponents_table,
           "engines": engines_table, "engine exponents": engine_exponents_table, "faces": faces_table,
           "leaks": leaks_table, "sizes": sizes_table, "machine": machine_table, "means": means_table, "rates": rates_table, "one ray": one_ray_table,
-          "builds": builds_table, "exponents": exponents_table, "peers": peers_table, "tachyon": tachyon_table,
+          "builds": builds_table, "exponents": exponents_table, "peers": peers_table, "errors": errors_table, "tachyon": tachyon_table,
           "billion": billion_table}
 
 MACHINE = re.compile(r"<!-- machine: (\S+) -->")

@@ -28,6 +28,7 @@ bench_peers() {
     # shellcheck disable=SC2046 # one option or none
     step "build" build release $(without_tests) -- vera
     step "compare with POV-Ray and Tachyon" bench/peers "$@"
+    (($# > 0)) || step "compare what antialiasing leaves" bench/peers --errors --sides 512
 }
 
 # Builds a program of the benchmarks.
