@@ -27,8 +27,8 @@ TEXT
 bench_peers() {
     # shellcheck disable=SC2046 # one option or none
     step "build" build release $(without_tests) -- vera
+    (($# > 0)) || step "find samples of no larger error than POV-Ray's" bench/peers --errors --sides 512
     step "compare with POV-Ray and Tachyon" bench/peers "$@"
-    (($# > 0)) || step "compare what antialiasing leaves" bench/peers --errors --sides 512
 }
 
 # Builds a program of the benchmarks.
