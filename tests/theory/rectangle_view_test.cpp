@@ -205,7 +205,7 @@ TEST(RectangleView, SeesLikeBothEngines) {
 /// What is seen of larger scenes, where little of the borders lies in one rectangle's reach.
 TEST(RectangleView, SeesLikeTheCellsOfManyRectangles) {
     for (const OverlaidFamily& family : overlaid_families())
-        for (const std::size_t count : {2, 40, 150}) {
+        for (const std::size_t count : {2U, 40U, 150U}) {
             const Rectangles rectangles = family.rectangles(count, 3);
             const ScreenScene scene = screen_scene(rectangles);
             EXPECT_EQ(
@@ -332,7 +332,7 @@ TEST(RectangleView, TakesStepsWithWhatIsSeenAndNotWithWhatCrosses) {
     std::vector<double> steps;
     std::vector<double> crossings;
     std::vector<double> swept;
-    for (const std::size_t count : {32, 64, 128, 256}) {
+    for (const std::size_t count : {32U, 64U, 128U, 256U}) {
         const Rectangles rectangles = hidden_grate_of_bars(count, 1);
         WindowCounts counts;
         const RectangleView view = rectangle_view(rectangles, &counts);
