@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is seen along the z axis of rectangles across it, in steps that go with what is seen:
 // O((n + v) log^2 n) for n rectangles and v corners of what is seen of them, where a plane sweep
-// takes O((n + k) log n) for k crossings, of hidden sides as well. Beyond the VERA paper: Bern
-// (Hidden surface removal for rectangles, 1990) has the first such algorithm, Güting and Ottmann
-// (New algorithms for special cases of the hidden line elimination problem, 1987) the way of this
-// one.
+// takes O((n + k) log n) for k crossings, of hidden sides as well. Beyond the VERA paper: the bound
+// is that of Güting and Ottmann (New algorithms for special cases of the hidden line elimination
+// problem, 1987); Bern (Hidden surface removal for rectangles, 1990) has a better one.
 //
 // Rectangles come from the nearest to the farthest. What those before one of them cover together is
 // known by its border: what of this lies in the rectangle, and what of its own sides lies outside,
-// is the border of what is seen of it. All of that belongs to the map of what is seen, and a part
-// of the border that a rectangle has covered is no border any more. So each is found once, and put
-// there once; a rectangle in which there is none is hidden or whole, which one of its corners
-// tells.
+// is the border of what is seen of it. All of that belongs to the map of what is seen, and what of
+// the border a rectangle has covered is no border any more: each part comes once and goes once.
+// Where no border lies in a rectangle it is hidden, or seen as a whole, which one cell tells.
 #pragma once
 
 #include "vera/base/parallel.h"

@@ -80,7 +80,7 @@ Experiment view_experiment(const OverlaidFamily& family) {
     experiment.name = "visible-rectangles";
     experiment.counted = "steps to find what is seen, by the union of what is covered";
     experiment.bound = "(n + v) log^2 n";
-    experiment.source = "Bern 1990";
+    experiment.source = "Güting and Ottmann 1987";
     return experiment;
 }
 
