@@ -60,21 +60,26 @@ std::vector<std::uint32_t> depth_order(std::span<const IsoRectangle> rectangles)
 /// for: how much will be seen, nobody knows before.
 class RoomForUnion {
 public:
-    explicit RoomForUnion(std::size_t rectangles)
-        : rectangles_(rectangles) {}
+    RoomForUnion(std::size_t rectangles, std::int32_t columns, std::int32_t rows)
+        : what_("what is seen of " + std::to_string(rectangles) + " rectangles") {
+        require_bytes(
+            WindowTree::bytes_without_segments(columns) + WindowTree::bytes_without_segments(rows));
+    }
 
     void require(std::size_t entries) {
         if (entries < most_)
             return;
         most_ = std::max<std::size_t>(2 * entries, 65536);
-        require_memory(
-            static_cast<double>(most_ - entries) * WindowTree::bytes_of_entry,
-            "what is seen of " + std::to_string(rectangles_) + " rectangles",
-            "take fewer of them, or rectangles that hide more of each other");
+        require_bytes(static_cast<double>(most_ - entries) * WindowTree::bytes_of_entry);
     }
 
 private:
-    std::size_t rectangles_;
+    void require_bytes(double bytes) const {
+        require_memory(
+            bytes, what_, "take fewer of them, or rectangles that hide more of each other");
+    }
+
+    std::string what_;
     std::size_t most_ = 0;
 };
 
@@ -100,8 +105,8 @@ RectangleView rectangle_view(
     ys.sort();
 
     WindowCounts here;
+    RoomForUnion room(order.size(), xs.count(), ys.count());
     CoveredUnion covered(xs.count(), ys.count(), here);
-    RoomForUnion room(order.size());
     RectangleView view;
     const LongLoop loop(order.size(), progress, cancel);
     for (std::size_t i = 0; i < order.size(); ++i) {

@@ -66,38 +66,34 @@ public:
     std::optional<WindowSegment> last_before(std::int32_t place, std::int32_t across) const;
 
     /// Of all nodes together.
-    std::size_t entry_count() const { return over_.size() + beginning_.size(); }
+    std::size_t entry_count() const { return entry_count_; }
 
     /// Of memory, for an entry: about.
-    static constexpr std::size_t bytes_of_entry = 64;
+    static constexpr std::size_t bytes_of_entry = 48;
+
+    /// Of memory, without any segment.
+    static double bytes_without_segments(std::int32_t places);
 
 private:
-    struct Entry {
-        std::uint32_t node = 0; ///< the root is 1, the children of i are 2 i and 2 i + 1
-        WindowSegment segment;
-    };
-
-    struct ByPlace {
-        bool operator()(const Entry& a, const Entry& b) const;
+    /// Across, then along.
+    struct InOrder {
+        bool operator()(const WindowSegment& a, const WindowSegment& b) const;
 
         WindowCounts* counts;
     };
 
-    /// Those of all nodes: one node's behind the other's.
-    using Entries = std::set<Entry, ByPlace>;
+    using Node = std::set<WindowSegment, InOrder>;
 
     template <typename Visit>
-    void for_each_entry_of(const WindowSegment& segment, const Visit& visit);
-    void append_of_node(
-        const Entries& entries,
-        std::size_t node,
-        PlaceRange across,
-        std::vector<WindowSegment>& found) const;
+    void for_each_node_of(const WindowSegment& segment, const Visit& visit);
+    void
+    append_of_node(const Node& node, PlaceRange across, std::vector<WindowSegment>& found) const;
 
-    std::size_t leaves_ = 1; ///< a power of 2
+    std::size_t leaves_ = 1; ///< a power of 2; the root is 1, the children of i are 2 i and 2 i + 1
+    std::size_t entry_count_ = 0;
     WindowCounts& counts_;
-    Entries over_;      ///< of the nodes that together are the segment's places
-    Entries beginning_; ///< of all nodes with the place at which the segment begins
+    std::vector<Node> over_;      ///< segments are in the nodes that together are their places
+    std::vector<Node> beginning_; ///< and in those with the place at which they begin
 };
 
 } // namespace vera
