@@ -26,7 +26,12 @@ using testing::scene_side;
 
 constexpr std::uint32_t nobody = ~std::uint32_t{0};
 
-/// Who is seen in each cell of the grid, which begins at (x, y).
+/// Of the cell of the grid that begins there.
+std::size_t cell_number(std::int32_t x, std::int32_t y) {
+    return static_cast<std::size_t>(x) * scene_side + static_cast<std::size_t>(y);
+}
+
+/// Who is seen in each cell.
 class SeenCells {
 public:
     SeenCells() = default;
@@ -49,13 +54,11 @@ public:
     std::uint32_t operator()(std::int32_t x, std::int32_t y) const {
         if (x < 0 || y < 0 || x >= scene_side || y >= scene_side)
             return nobody;
-        return cells_[static_cast<std::size_t>(x * scene_side + y)];
+        return cells_[cell_number(x, y)];
     }
 
 private:
-    std::uint32_t& at(std::int32_t x, std::int32_t y) {
-        return cells_[static_cast<std::size_t>(x * scene_side + y)];
-    }
+    std::uint32_t& at(std::int32_t x, std::int32_t y) { return cells_[cell_number(x, y)]; }
 
     std::vector<std::uint32_t> cells_ = std::vector<std::uint32_t>(scene_side * scene_side, nobody);
 };
@@ -74,7 +77,7 @@ void add_windings(PlanePoint from, PlanePoint to, Windings& windings) {
     // All that lies to the right of what goes down is inside once more.
     for (std::int32_t y = std::min(from.y, to.y); y < std::max(from.y, to.y); ++y)
         for (std::int32_t x = from.x; x < scene_side; ++x)
-            windings[static_cast<std::size_t>(x * scene_side + y)] += from.y > to.y ? 1 : -1;
+            windings[cell_number(x, y)] += from.y > to.y ? 1 : -1;
 }
 
 /// The rectangle is seen to the left of each side and not to its right, and each side turns.
@@ -128,9 +131,8 @@ void expect_seen(const Rectangles& rectangles, const RectangleView& view, const 
     for (std::uint32_t number = 0; number < rectangles.size(); ++number)
         for (std::int32_t x = 0; x < scene_side; ++x)
             for (std::int32_t y = 0; y < scene_side; ++y)
-                EXPECT_EQ(
-                    windings[number][static_cast<std::size_t>(x * scene_side + y)],
-                    seen(x, y) == number ? 1 : 0);
+                if (windings[number][cell_number(x, y)] != (seen(x, y) == number ? 1 : 0))
+                    ADD_FAILURE() << "rectangle " << number << " at " << x << ", " << y;
 }
 
 TEST(RectangleView, SeesWhatIsSeenInEveryCell) {
@@ -319,6 +321,20 @@ TEST(RectangleView, EndsWhenItIsCancelledAndTellsHowFarItIs) {
     CancelFlag cancel;
     cancel.raise();
     EXPECT_THROW(rectangle_view(rectangles, nullptr, {}, &cancel), Cancelled);
+}
+
+/// A piece that is found ends at corners of what is seen, or where two of the nearer ones meet.
+TEST(RectangleView, FindsNoMoreOfTheBorderThanIsSeen) {
+    std::mt19937_64 random(5);
+    std::uint64_t found = 0;
+    for (int turn = 0; turn < 100; ++turn)
+        for (const testing::RectangleScene& family : testing::rectangle_scenes()) {
+            WindowCounts counts;
+            const RectangleView view = rectangle_view(family.rectangles(random), &counts);
+            ASSERT_LE(counts.found, view.corners.size()) << family.name << ", turn " << turn;
+            found += counts.found;
+        }
+    EXPECT_GT(found, 10'000U);
 }
 
 TEST(RectangleView, TakesTheSameStepsAgain) {

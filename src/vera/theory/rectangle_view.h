@@ -44,11 +44,12 @@ struct RectangleView {
     }
 };
 
-/// The view from far away at small z, where the smaller z is in front, and of several rectangles in
-/// one plane the one that comes first in the list: as brute_force_first_rectangle() has it for a
-/// ray along the z axis, but for its border no rectangle ends at. One without an area is not seen,
-/// and hides nothing. The steps are added to the counts. Throws std::invalid_argument as
-/// require_rectangles() does, std::runtime_error where memory would not suffice, and Cancelled.
+/// The view along z from far away at small z: the smaller z is in front, and of several rectangles
+/// in one plane the one that comes first in the list. Of each is seen what
+/// brute_force_first_rectangle() tells of rays along z that pass beside all sides, with its border.
+/// One without an area is not seen, and hides nothing. The steps are added to the counts. Throws
+/// std::invalid_argument as require_rectangles() does, std::runtime_error where memory would not
+/// suffice, and Cancelled.
 RectangleView rectangle_view(
     std::span<const IsoRectangle> rectangles,
     WindowCounts* counts = nullptr,
