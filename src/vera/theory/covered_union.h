@@ -16,12 +16,13 @@
 
 namespace vera {
 
-/// Cells: those in the columns cells[0] and the rows cells[1], which are some each.
+/// The cells in the columns cells[0] and the rows cells[1], neither of which is empty.
 struct CellBox {
     std::array<PlaceRange, 2> cells;
 };
 
-/// Where a column begins, and a row: or the last ones end.
+/// The corner of the cell of column x and row y at which both begin. Behind the last there is one
+/// more each.
 struct GridCorner {
     std::int32_t x = 0;
     std::int32_t y = 0;
@@ -42,17 +43,18 @@ public:
     CoveredUnion(std::int32_t columns, std::int32_t rows, WindowCounts& counts);
 
     /// Covers the box. Returns the border of what of it was free before, in no particular order,
-    /// and straight parts of it perhaps as several edges; nothing if all was covered.
+    /// and straight parts of it perhaps as several edges; nothing if all was covered. Takes
+    /// O((1 + p) log^2 n) for p pieces of the border that are in the box.
     std::vector<GridEdge> cover(const CellBox& box);
 
     /// In all nodes of the trees: see WindowTree::bytes_of_entry.
     std::size_t entry_count() const { return along_[0].entry_count() + along_[1].entry_count(); }
 
 private:
-    /// Of a box, a side along an axis: the cells inside, and those beyond.
+    /// A side of a box, along the axis.
     struct Side {
         std::size_t axis = 0;
-        std::int32_t inside = 0;
+        std::int32_t inside = 0; ///< the number across of the box's cells beside it
         bool is_upper = false;
         std::vector<PlaceRange> free; ///< where the cells inside are free, in ascending order
     };
