@@ -13,7 +13,7 @@ TEST(BenchFigure, ListsAndDrawsEachFigure) {
     const ScratchFolder folder;
     const ProgramRun list = run_vera(folder, "bench figure --list");
     EXPECT_EQ(list.exit_code, 0);
-    for (const char* name : {"3a", "3b", "3c", "3d", "A1", "A2"}) {
+    for (const char* name : {"3a", "3b", "3c", "3d", "A1", "A2", "B1"}) {
         EXPECT_THAT(list.out, HasSubstr(std::string(name) + "   ")) << name;
         const ProgramRun run =
             run_vera(folder, std::string("bench figure ") + name + " -o " + name + ".svg");
@@ -34,7 +34,7 @@ TEST(BenchFigure, SaysWhatIsWrongWithACommandLine) {
         const char* problem;
     } wrong[] = {
         {"", "name a figure; 'vera bench figure --list' tells which there are"},
-        {"3e -o a.svg", "there is no figure '3e'; there are 3a, 3b, 3c, 3d, A1 and A2"},
+        {"3e -o a.svg", "there is no figure '3e'; there are 3a, 3b, 3c, 3d, A1, A2 and B1"},
         {"3a", "--output is required: the file to draw into"},
         {"3a -o a.png", "'a.png' is no name of an SVG: figures are written as .svg"},
         {"3a -o a.svgg", "did you mean 'a.svg'?"},

@@ -98,5 +98,14 @@ TEST(Figures, OfTheCubeFindsThePolygonThatTheRayMeets) {
     EXPECT_EQ(figure.count("polygon of the query"), 4U); // the triangle that hangs in front
 }
 
+TEST(Figures, OfTheWindowsHideMostOfWhatCrosses) {
+    const DrawnFigure figure = figure_of_windows();
+    EXPECT_EQ(figure.count("rectangles"), 32U);
+    EXPECT_GT(figure.count("crossings"), 2 * figure.count("corners seen"));
+    EXPECT_LT(figure.count("rectangles seen"), figure.count("rectangles"));
+    EXPECT_GT(figure.count("rings"), figure.count("rectangles seen"));
+    EXPECT_EQ(figure.count("holes"), 1U);
+}
+
 } // namespace
 } // namespace vera

@@ -33,7 +33,8 @@ std::span<const Experiment> experiments() {
               sweep_experiments,
               dual_experiments,
               visible_surface_experiments,
-              terrain_experiments}) {
+              terrain_experiments,
+              rectangle_view_experiments}) {
             std::vector<Experiment> some = of_structure();
             std::move(some.begin(), some.end(), std::back_inserter(found));
         }

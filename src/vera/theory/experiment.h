@@ -65,5 +65,6 @@ std::vector<Experiment> sweep_experiments();
 std::vector<Experiment> dual_experiments();
 std::vector<Experiment> visible_surface_experiments();
 std::vector<Experiment> terrain_experiments();
+std::vector<Experiment> rectangle_view_experiments();
 
 } // namespace vera

@@ -21,7 +21,8 @@ std::span<const Figure> figures() {
         {"3c", "a ray moved in dual space", figure_of_dual_space},
         {"3d", "the segment tree over z, and its range trees", figure_of_segment_tree},
         {"A1", "a scene of 14 polygons and its connection graph", figure_of_connection_graph},
-        {"A2", "how the connection graph is traversed", figure_of_traversal}};
+        {"A2", "how the connection graph is traversed", figure_of_traversal},
+        {"B1", "overlapping windows, and what is seen of them", figure_of_windows}};
     return all;
 }
 

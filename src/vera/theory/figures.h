@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The diagrams of the paper's section 3 and appendix, drawn from the structures themselves: what is
-// seen in them is what was computed.
+// The diagrams of the paper's section 3 and appendix, and of what goes beyond it, drawn from the
+// structures themselves: what is seen in them is what was computed.
 #pragma once
 
 #include <cstddef>
@@ -26,7 +26,7 @@ struct DrawnFigure {
 };
 
 struct Figure {
-    std::string name;  ///< as in the paper: "3b"
+    std::string name;  ///< as in the paper: "3b"; those beyond it begin with B
     std::string title; ///< for people
     DrawnFigure (*drawn)();
 };
@@ -41,5 +41,6 @@ DrawnFigure figure_of_dual_space();       // 3c
 DrawnFigure figure_of_segment_tree();     // 3d
 DrawnFigure figure_of_connection_graph(); // A1
 DrawnFigure figure_of_traversal();        // A2
+DrawnFigure figure_of_windows();          // B1
 
 } // namespace vera

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// What rectangles with sides along the axes cover together, by its border alone. Coordinates are
+// numbered, so that neighbouring ones have a row or a column of cells between them, each covered or
+// free. The border is kept as pieces in two window trees, one for each axis: so what of it lies in
+// a further rectangle is found in O(log^2 n) and as much for each piece.
+//
+// A piece is told from its free side: it belongs to a rectangle if the free cells beside it do.
+// That decides by itself what becomes of borders that coincide or touch.
+#pragma once
+
+#include "vera/theory/window_tree.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace vera {
+
+/// The cells in the columns cells[0] and the rows cells[1], neither of which is empty.
+struct CellBox {
+    std::array<PlaceRange, 2> cells;
+};
+
+/// The corner of the cell of column x and row y at which both begin. Behind the last there is one
+/// more each.
+struct GridCorner {
+    std::int32_t x = 0;
+    std::int32_t y = 0;
+
+    friend constexpr bool operator==(GridCorner, GridCorner) = default;
+    friend constexpr auto operator<=>(GridCorner, GridCorner) = default;
+};
+
+/// Of the border of an area, which lies on its left; y grows upward.
+struct GridEdge {
+    GridCorner from;
+    GridCorner to;
+};
+
+class CoveredUnion {
+public:
+    /// Nothing is covered at first. The counts must outlive this.
+    CoveredUnion(std::int32_t columns, std::int32_t rows, WindowCounts& counts);
+
+    /// Covers the box. Returns the border of what of it was free before, in no particular order,
+    /// and straight parts of it perhaps as several edges; nothing if all was covered. Takes
+    /// O((1 + p) log^2 n) for p pieces of the border that are in the box.
+    std::vector<GridEdge> cover(const CellBox& box);
+
+    /// In all nodes of the trees: see WindowTree::bytes_of_entry.
+    std::size_t entry_count() const { return along_[0].entry_count() + along_[1].entry_count(); }
+
+private:
+    /// A side of a box, along the axis.
+    struct Side {
+        std::size_t axis = 0;
+        std::int32_t inside = 0; ///< the number across of the box's cells beside it
+        bool is_upper = false;
+        std::vector<PlaceRange> free; ///< where the cells inside are free, in ascending order
+    };
+
+    using Pieces = std::vector<WindowSegment>;
+
+    Side
+    side_of(const CellBox& box, std::size_t axis, bool is_upper, const std::array<Pieces, 2>& met)
+        const;
+    void uncover(const CellBox& box, std::size_t axis, const WindowSegment& piece);
+    void add_border(const Side& side, const Pieces& met);
+
+    /// Along x, and along y: at 2 i where the cells of number i across, which begin there, are
+    /// free, and at 2 i + 1 where those of number i, which end there, are.
+    std::array<WindowTree, 2> along_;
+};
+
+} // namespace vera
