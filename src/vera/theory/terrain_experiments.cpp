@@ -6,6 +6,8 @@
 
 #include <cmath>
 #include <random>
+#include <span>
+#include <vector>
 
 namespace vera {
 
@@ -55,6 +57,15 @@ ScreenScene hidden_hills(std::size_t triangles, std::uint64_t seed) {
     return scene;
 }
 
+/// (n + v) log^2 n, of n triangles of which v corners are seen.
+const std::vector<BoundTerm>& profile_terms() {
+    static const auto square = [](double value) { return value * value; };
+    static const std::vector<BoundTerm> terms = {
+        {"n log^2 n", [](std::span<const double> nv) { return nv[0] * square(log2_of(nv[0])); }},
+        {"v log^2 n", [](std::span<const double> nv) { return nv[1] * square(log2_of(nv[0])); }}};
+    return terms;
+}
+
 using MakeScene = ScreenScene (*)(std::size_t triangles, std::uint64_t seed);
 
 Experiment of_hills(const char* family, const char* input, MakeScene make) {
@@ -65,6 +76,8 @@ Experiment of_hills(const char* family, const char* input, MakeScene make) {
     experiment.counted = "steps to find what is seen, by profiles";
     experiment.unit = "triangles";
     experiment.bound = "(n + v) log^2 n";
+    experiment.variables = {"n", "v"};
+    experiment.terms = profile_terms();
     experiment.source = "Katz, Overmars and Sharir 1992";
     experiment.first = 128;
     experiment.last = 65536;
@@ -75,11 +88,11 @@ Experiment of_hills(const char* family, const char* input, MakeScene make) {
         TerrainCounts counts;
         const VisiblePieces pieces = terrain_pieces(scene, Upward::with_y, &counts, {}, cancel);
         const auto triangles = static_cast<double>(scene.triangles.size());
-        const double log_n = log2_of(triangles);
-        return CountedSize{
+        return counted_by_terms(
             triangles,
             static_cast<double>(counts.steps()),
-            (triangles + static_cast<double>(pieces.points.size())) * log_n * log_n};
+            {triangles, static_cast<double>(pieces.points.size())},
+            profile_terms());
     };
     return experiment;
 }
