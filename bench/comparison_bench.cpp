@@ -55,8 +55,8 @@ double quantile(std::span<const double> ascending, double part) {
         + (place - static_cast<double>(below)) * (ascending[above] - ascending[below]);
 }
 
-/// Adds the seconds of the processor that the work takes: the median of some runs and the quartiles,
-/// between which half of them lie. Other work on the machine counts less.
+/// Adds the seconds of the processor that the work takes: the median of some runs and the
+/// quartiles, between which half of them lie. Other work on the machine counts less.
 template <typename Work>
 void add_seconds(Json& json, int runs, const Work& work) {
     std::vector<double> seconds;

@@ -72,8 +72,9 @@ std::string model_cell(const Curve& curve, ModelKind kind) {
 
 std::string model_table(std::span<const Curve> curves) {
     std::string text = fmt::format(
-        "{:<32} {:>12} {:>12} {:>12} {:>12}  {}\n",
-        "AIC above the best; foretold",
+        "Formulas: Akaike's criterion above the best one's, and how far off they foretell the two "
+        "largest sizes\n{:<32} {:>12} {:>12} {:>12} {:>12}  {}\n",
+        "curve",
         "c n",
         "c n log n",
         "c n^p",
@@ -97,7 +98,8 @@ const char* same_word(std::optional<bool> same) {
 
 std::string structure_table(const CurveStructure& structure) {
     const Experiment& experiment = *structure.experiment;
-    std::string text = fmt::format("{} as {}\n", experiment.name, structure_text(experiment));
+    std::string text =
+        fmt::format("Terms: {} as {}\n", experiment.name, structure_text(experiment));
     const auto add_line = [&](const std::string& label, const StructuralFit& fit) {
         text += fmt::format("  {:<14}", label);
         for (const auto& coefficient : fit.coefficients)

@@ -29,8 +29,8 @@ TEST(BenchCurve, PrintsATableAndWritesPointsAndAPlot) {
         folder, "bench curve kd-tree conjugation-tree/circle --largest 512 -o a.csv -o a.svg -q");
     ASSERT_EQ(run.exit_code, 0) << run.err;
     EXPECT_EQ(run.err, "");
-    // Two tables of three curves, and an empty line between.
-    EXPECT_EQ(lines_of(run.out), 4U + 1 + 4) << run.out;
+    // Two tables of three curves, with an empty line and a heading between.
+    EXPECT_EQ(lines_of(run.out), 4U + 2 + 4) << run.out;
     EXPECT_THAT(run.out, HasSubstr("by a bootstrap"));
     EXPECT_THAT(run.out, HasSubstr("above the bound for certain"));
     EXPECT_THAT(run.out, HasSubstr(" c n^1.00\n")); // boxes along a thin diagonal
@@ -77,8 +77,9 @@ TEST(BenchCurve, ComparesTheTermsOfABoundAcrossFamilies) {
         folder,
         "bench curve visible-sweep/grate visible-terrain --sizes 32,64,128,256 -o a.csv -q");
     ASSERT_EQ(run.exit_code, 0) << run.err;
-    EXPECT_THAT(run.out, HasSubstr("\nvisible-sweep as c1 n log n + c2 k log n\n  grate "));
-    EXPECT_THAT(run.out, HasSubstr("\nvisible-terrain as c1 n log^2 n + c2 v log^2 n\n  steep "));
+    EXPECT_THAT(run.out, HasSubstr("\nTerms: visible-sweep as c1 n log n + c2 k log n\n  grate "));
+    EXPECT_THAT(
+        run.out, HasSubstr("\nTerms: visible-terrain as c1 n log^2 n + c2 v log^2 n\n  steep "));
     EXPECT_THAT(run.out, HasSubstr("\n  one for all "));
     EXPECT_THAT(
         folder.read("a.csv"), StartsWith("curve,size,count,bound,local_exponent,fitted,n,k,v\n"));

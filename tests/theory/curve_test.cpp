@@ -230,8 +230,8 @@ TEST(CurveStructure, TellsWhetherFamiliesHaveOneCoefficient) {
     EXPECT_NEAR(found[0].fits[1].coefficients[1]->value, 3, 0.01);
     EXPECT_THAT(found[0].same, ElementsAre(true, false));
     EXPECT_GT(found[0].together->error, 10 * found[0].fits[0].error);
-    EXPECT_EQ(coefficient_text(TermCoefficient{1.5, 1, 2.25}), "1.50 (1.00 to 2.25)");
-    EXPECT_EQ(coefficient_text(TermCoefficient{0, 0, 0}), "0.00 (else negative)");
+    EXPECT_EQ(coefficient_text(TermCoefficient{1.5, 1, 2.25}), "1.5 (1 to 2.25)");
+    EXPECT_EQ(coefficient_text(TermCoefficient{0, 0, 0}), "0 (else negative)");
     EXPECT_EQ(coefficient_text(std::nullopt), "not told");
 }
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <optional>
 
 #include <fmt/format.h>
@@ -93,9 +94,12 @@ std::vector<double> local_exponents_of(const Curve& curve) {
     return local_exponents(sizes, counts);
 }
 
-/// What each family has of the terms of a bound of several, a line for each; none for other bounds.
-std::vector<std::string> structure_lines(std::span<const Curve> curves) {
+/// What is said below the legend: what a star means, where there is one; and what each family has
+/// of the terms of a bound of several.
+std::vector<std::string> notes_of(std::span<const Curve> curves) {
     std::vector<std::string> lines;
+    if (std::any_of(curves.begin(), curves.end(), std::mem_fn(&Curve::is_contradicted)))
+        lines.emplace_back("* A bootstrap comes to another verdict.");
     for (const CurveStructure& found : structures(curves)) {
         const std::vector<BoundTerm>& terms = found.experiment->terms;
         for (std::size_t i = 0; i < found.families.size(); ++i) {
@@ -103,7 +107,7 @@ std::vector<std::string> structure_lines(std::span<const Curve> curves) {
             for (std::size_t term = 0; term < terms.size(); ++term)
                 if (const auto& coefficient = found.fits[i].coefficients[term])
                     sum += fmt::format(
-                        "{}{:.2f} {}",
+                        "{}{:.3g} {}",
                         sum.empty() ? "" : " + ",
                         coefficient->value,
                         terms[term].formula);
@@ -126,7 +130,7 @@ public:
         , bottom_(corner.y + top_margin + plot_height)
         , strip_top_(bottom_ + strip_gap)
         , strip_bottom_(strip_top_ + strip_height)
-        , structure_(structure_lines(curves)) {
+        , notes_(notes_of(curves)) {
         DecadesOf across;
         DecadesOf upward;
         for (const Curve& curve : curves)
@@ -161,7 +165,7 @@ public:
 
     static double height(std::span<const Curve> curves) {
         return top_margin + plot_height + strip_gap + strip_height + below_strip
-            + legend_line * static_cast<double>(curves.size() + 3 + structure_lines(curves).size());
+            + legend_line * static_cast<double>(curves.size() + 3 + notes_of(curves).size());
     }
 
 private:
@@ -286,8 +290,8 @@ private:
             diagram_.circle({left_ + 4, y - 4}, 4, color_of(i));
             diagram_.text({left_ + 16, y}, curve.experiment->family);
             diagram_.text({left_ + 130, y}, "n^" + exponent_text(curve.growth));
-            const char* unsure = curve.is_contradicted() ? " (not by the bootstrap)" : "";
-            diagram_.text({left_ + 240, y}, verdict_on_bound(curve) + unsure);
+            diagram_.text(
+                {left_ + 240, y}, verdict_on_bound(curve) + (curve.is_contradicted() ? " *" : ""));
         }
         const DiagramText style = {11, diagram_colors::faint};
         diagram_.text(
@@ -296,7 +300,7 @@ private:
             style);
         y += 4 + legend_line;
         diagram_.text({left_, y}, "Bound: " + sources(), style);
-        for (const std::string& line : structure_)
+        for (const std::string& line : notes_)
             diagram_.text({left_, y += legend_line}, line, style);
     }
 
@@ -331,7 +335,7 @@ private:
     double bottom_;
     double strip_top_;
     double strip_bottom_;
-    std::vector<std::string> structure_;
+    std::vector<std::string> notes_;
     WholeRange sizes_;
     WholeRange counts_;
     WholeRange exponents_; ///< whole numbers

@@ -56,9 +56,9 @@ std::string coefficient_text(const std::optional<TermCoefficient>& coefficient) 
     if (!coefficient)
         return "not told";
     if (coefficient->upper == 0)
-        return "0.00 (else negative)";
+        return "0 (else negative)";
     return fmt::format(
-        "{:.2f} ({:.2f} to {:.2f})", coefficient->value, coefficient->lower, coefficient->upper);
+        "{:.3g} ({:.3g} to {:.3g})", coefficient->value, coefficient->lower, coefficient->upper);
 }
 
 } // namespace vera

@@ -27,7 +27,7 @@ std::vector<CurveStructure> structures(std::span<const Curve> curves);
 /// "c1 n log n + c2 k log n"
 std::string structure_text(const Experiment& experiment);
 
-/// "1.23 (1.20 to 1.26)", "0.00 (else negative)" where the whole interval was below 0 before it was cut
+/// "1.23 (1.2 to 1.26)", "0 (else negative)" where the whole interval was below 0 before it was cut
 /// off, or "not told".
 std::string coefficient_text(const std::optional<TermCoefficient>& coefficient);
 
