@@ -35,7 +35,7 @@ const char* verdict_word(Verdict verdict) {
 
 std::string growth_table(std::span<const Curve> curves) {
     std::string text = fmt::format(
-        "{:<32} {:>18} {:>14}  {:<14} {:>6}  {:<19} {:>5}  {}\n",
+        "{:<32} {:>20} {:>14}  {:<14} {:>6}  {:<19} {:>5}  {}\n",
         "curve",
         "sizes fitted",
         "grows as n^",
@@ -46,9 +46,13 @@ std::string growth_table(std::span<const Curve> curves) {
         "verdict");
     for (const Curve& curve : curves)
         text += fmt::format(
-            "{:<32} {:>18} {:>14}  {:<14} {:>6.4f}  {:<19} {:>5.2f}  {}{}\n",
+            "{:<32} {:>20} {:>14}  {:<14} {:>6.4f}  {:<19} {:>5.2f}  {}{}\n",
             full_name(*curve.experiment),
-            fmt::format("{} to {}", curve.fitted().front().size, curve.fitted().back().size),
+            fmt::format(
+                "{} to {} ({})",
+                curve.fitted().front().size,
+                curve.fitted().back().size,
+                curve.fitted().size()),
             exponent_text(curve.growth),
             interval_text(curve.resampled.both_ways),
             curve.growth.r_squared,

@@ -116,6 +116,21 @@ TEST(ResidualBootstrap, OfAPowerAloneIsAPoint) {
     EXPECT_NEAR(found.upper, 1, 1e-12);
 }
 
+TEST(ResidualBootstrap, KnowsThatOneSizeAloneIsFollowed) {
+    // Whatever is counted at the last size, the line goes through it: only the others vary.
+    const std::vector<double> sizes = {64, 64, 64, 512};
+    const std::vector<double> counts = {8, 16, 32, 128};
+    const Interval found = resampled_growth(sizes, counts).both_ways;
+    // By hand: -1, 0 and 1 are left at the first size, with a leverage of 1/3, and 0 at the last.
+    // The line moves most, by 4.5 / 6.75, where the first three have the one and the last the
+    // other.
+    const double most = std::sqrt(1.5) * 4.5 / 6.75;
+    EXPECT_GE(found.lower, 1 - most - 1e-12);
+    EXPECT_LE(found.upper, 1 + most + 1e-12);
+    EXPECT_LT(found.lower, 1 - most / 2);
+    EXPECT_GT(found.upper, 1 + most / 2);
+}
+
 TEST(ResidualBootstrap, RefusesTooFewResamples) {
     EXPECT_THROW(resampled_growth(four_sizes, four_sizes, 39), std::invalid_argument);
 }

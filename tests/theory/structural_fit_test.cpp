@@ -8,6 +8,7 @@
 #include <optional>
 #include <random>
 #include <stdexcept>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -178,6 +179,15 @@ TEST(StructuralFit, TellsNothingOfTermsThatAreMadeUpOfOthers) {
     EXPECT_FALSE(fit->coefficients[2].has_value());
     EXPECT_NEAR(fit->coefficients[3]->value, 4, 1e-9);
     EXPECT_NEAR(fit->error, 0, 1e-9);
+    // Made up but for rounding: the last is a tenth of the first and a third of the second.
+    std::vector<TermRow> rounded;
+    for (const auto& [a, b] : {std::pair{1.1, 2.3}, {3.7, 0.9}, {0.3, 5.1}, {2.9, 2.2}, {7.7, 0.1}})
+        rounded.push_back({a + 2 * b, {a, b, a / 10 + b / 3}});
+    const auto of_rounded = structural_fit(rounded);
+    ASSERT_TRUE(of_rounded.has_value());
+    for (const auto& coefficient : of_rounded->coefficients)
+        EXPECT_FALSE(coefficient.has_value());
+    EXPECT_NEAR(of_rounded->error, 0, 1e-9);
 }
 
 TEST(StructuralFit, TakesMoreRowsThanTerms) {

@@ -16,22 +16,18 @@ namespace {
 
 constexpr std::size_t least_resamples = 40; // of which one is 2.5 %
 
-/// As large as the errors that they come from, and 0 in the mean. Two points alone that lie at
-/// their x leave the line no choice: a residual whose leverage is 1 is 0.
+/// As large as the errors that they come from. A residual whose leverage is 1, at a size that alone
+/// leaves the line no choice, is 0. What all have in common does not move a slope.
 std::vector<double> enlarged_residuals(const LineFit& fit, const Logarithms& logs) {
     const std::size_t count = logs.of_sizes.size();
     std::vector<double> residuals(count);
-    double sum = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const double x = logs.of_sizes[i] - fit.middle_x;
         const double freedom = 1 - 1 / static_cast<double>(count) - x * x / fit.spread;
         constexpr double rounding = 1e-12;
         if (freedom > rounding)
             residuals[i] = (logs.of_counts[i] - fit.at(logs.of_sizes[i])) / std::sqrt(freedom);
-        sum += residuals[i];
     }
-    for (double& residual : residuals)
-        residual -= sum / static_cast<double>(count);
     return residuals;
 }
 

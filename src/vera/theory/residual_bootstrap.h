@@ -3,7 +3,7 @@
 // power may be off, told by the residuals themselves. Student's t takes them for normal noise; here
 // residuals are drawn with replacement, added to the fit, and fitted again, many times. A residual
 // at the border of the sizes, which the line follows more closely, is enlarged by 1 / sqrt(1 - its
-// leverage), and their mean is taken away.
+// leverage).
 //
 // Its intervals are a check. Of few sizes they are narrower than those of t: quantiles of so few
 // residuals do not know how rarely a large one comes.
