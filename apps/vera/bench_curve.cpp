@@ -44,6 +44,10 @@ enum class CurveFormat { csv, svg };
 
 /// A file of curves, opened before they are counted.
 struct CurveFile {
+    CurveFile(CurveFormat written_as, const std::string& path)
+        : format(written_as)
+        , file(path) {}
+
     CurveFormat format;
     OutputFile file;
 };
@@ -125,8 +129,7 @@ std::vector<std::unique_ptr<CurveFile>> opened_files(const Request& request) {
                 "--json and '-o -' would both write to standard output: leave out one of them");
         if (std::count(request.outputs.begin(), request.outputs.end(), path) > 1)
             throw CommandLineError(fmt::format("'{}' is named twice: leave out one", path));
-        files.push_back(
-            std::unique_ptr<CurveFile>(new CurveFile{format_of(path), OutputFile(path)}));
+        files.push_back(std::make_unique<CurveFile>(format_of(path), path));
     }
     return files;
 }
@@ -141,6 +144,7 @@ counted(const std::vector<Chosen>& wanted, std::uint64_t seed, const Console& co
     ProgressDisplay display(console, "count");
     StageProgress stages(display.callback(), total);
     std::vector<Curve> curves;
+    curves.reserve(wanted.size());
     for (const Chosen& each : wanted)
         curves.push_back(counted_curve(
             *each.experiment, each.sizes, seed, stages.next(weight(each)), &console.cancel));
