@@ -16,6 +16,7 @@
 #include <exception>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -45,9 +46,19 @@ ScreenScene scene_on_grid(const std::string& path) {
     return screen;
 }
 
-/// Of the processor, the median of some runs: other work on the machine counts less.
+/// Between two of the runs, where the part of them falls between two.
+double quantile(std::span<const double> ascending, double part) {
+    const double place = part * static_cast<double>(ascending.size() - 1);
+    const auto below = static_cast<std::size_t>(place);
+    const std::size_t above = std::min(below + 1, ascending.size() - 1);
+    return ascending[below]
+        + (place - static_cast<double>(below)) * (ascending[above] - ascending[below]);
+}
+
+/// Adds the seconds of the processor that the work takes: the median of some runs and the
+/// quartiles, between which half of them lie. Other work on the machine counts less.
 template <typename Work>
-double seconds_of(int runs, const Work& work) {
+void add_seconds(Json& json, int runs, const Work& work) {
     std::vector<double> seconds;
     for (int i = 0; i < runs; ++i) {
         const std::clock_t start = std::clock();
@@ -55,34 +66,37 @@ double seconds_of(int runs, const Work& work) {
         seconds.push_back(
             static_cast<double>(std::clock() - start) / static_cast<double>(CLOCKS_PER_SEC));
     }
-    std::nth_element(seconds.begin(), seconds.begin() + runs / 2, seconds.end());
-    return seconds[static_cast<std::size_t>(runs / 2)];
+    std::sort(seconds.begin(), seconds.end());
+    json["seconds"] = quantile(seconds, 0.5);
+    json["quartiles"] = {quantile(seconds, 0.25), quantile(seconds, 0.75)};
 }
 
 Json swept(const ScreenScene& scene, int runs) {
     if (sweep_forecast(scene).crossings > most_crossings)
         return nullptr;
-    SweepCounts counts;
-    const double seconds = seconds_of(runs, [&] { plane_sweep(scene, {std::nullopt, &counts}); });
-    const std::uint64_t steps = counts.orientations + counts.comparisons + counts.queued
-        + counts.insertions + counts.depth_orders;
-    return {{"crossings", counts.crossings}, {"steps", steps}, {"seconds", seconds}};
+    PlaneSweepCounts counts;
+    Json times;
+    add_seconds(times, runs, [&] { plane_sweep(scene, {std::nullopt, &counts}); });
+    Json json = {{"crossings", counts.crossings}, {"steps", counts.steps()}};
+    json.update(times);
+    return json;
 }
 
 Json by_cells(const ScreenScene& scene, int runs) {
     CellCounts counts;
-    const double seconds = seconds_of(runs, [&] { cell_raster(scene, {}, nullptr, {}, &counts); });
+    Json times;
+    add_seconds(times, runs, [&] { cell_raster(scene, {}, nullptr, {}, &counts); });
     const std::uint64_t steps = counts.touched + counts.edge_cells + counts.looked_at
         + counts.candidates + counts.events + counts.active;
-    return {{"steps", steps}, {"seconds", seconds}};
+    Json json = {{"steps", steps}};
+    json.update(times);
+    return json;
 }
 
-Json as_json(const QueryCounts& counts, double seconds) {
-    return {
-        {"rays", counts.rays},
-        {"nodes", counts.cells},
-        {"tests", counts.tests},
-        {"seconds", seconds}};
+Json as_json(const QueryCounts& counts, const Json& times) {
+    Json json = {{"rays", counts.rays}, {"nodes", counts.cells}, {"tests", counts.tests}};
+    json.update(times);
+    return json;
 }
 
 std::size_t differences(const PixelSources& a, const PixelSources& b) {
@@ -100,25 +114,28 @@ Json at_side(
     int runs) {
     DepthCounts depth;
     PixelSources by_depth;
-    const double depth_seconds = seconds_of(runs, [&] {
+    Json depth_times;
+    add_seconds(depth_times, runs, [&] {
         depth = {};
         by_depth = sources_by_depth(scene, side, depth);
     });
     PixelSources by_map;
-    const double map_seconds =
-        seconds_of(runs, [&] { by_map = sources_by_map(scene, pieces, side); });
+    Json map_times;
+    add_seconds(map_times, runs, [&] { by_map = sources_by_map(scene, pieces, side); });
     QueryCounts query;
     PixelSources by_rays;
-    const double rays_seconds = seconds_of(runs, [&] {
+    Json rays_times;
+    add_seconds(rays_times, runs, [&] {
         query = {};
         by_rays = rays.sources(rays.hits(side, query));
     });
+    Json depth_json = {{"filled", depth.filled}, {"compared", depth.compared}};
+    depth_json.update(depth_times);
     return {
         {"side", side},
-        {"depth",
-         {{"filled", depth.filled}, {"compared", depth.compared}, {"seconds", depth_seconds}}},
-        {"map", {{"seconds", map_seconds}}},
-        {"rays", as_json(query, rays_seconds)},
+        {"depth", depth_json},
+        {"map", map_times},
+        {"rays", as_json(query, rays_times)},
         {"seen",
          side * side
              - static_cast<std::size_t>(std::count(by_map.begin(), by_map.end(), no_source))},
@@ -140,11 +157,12 @@ Json of_light(
         QueryCounts counts;
         const std::vector<Hit> hits = rays.hits(side, counts);
         std::size_t lit = 0;
-        const double seconds = seconds_of(runs, [&] {
+        Json times;
+        add_seconds(times, runs, [&] {
             counts = {};
             lit = rays.lit(hits, light, counts);
         });
-        json["rays"].push_back(as_json(counts, seconds));
+        json["rays"].push_back(as_json(counts, times));
         json["rays"].back()["lit"] = lit;
     }
     return json;
@@ -155,13 +173,15 @@ void measure(const std::string& path, const std::vector<std::size_t>& sides, int
     const ScreenScene scene = scene_on_grid(path);
     const VisiblePieces pieces = cell_raster(scene);
     std::optional<GridRays> rays;
-    const double build = seconds_of(runs, [&] { rays.emplace(scene); });
+    Json build;
+    add_seconds(build, runs, [&] { rays.emplace(scene); });
+    build["bytes"] = rays->bytes();
     Json json = {
         {"triangles", scene.triangles.size()},
         {"corners", pieces.points.size()},
         {"sweep", swept(scene, runs)},
         {"cells", by_cells(scene, runs)},
-        {"build", {{"seconds", build}, {"bytes", rays->bytes()}}}};
+        {"build", build}};
     for (const std::size_t side : sides)
         json["sides"].push_back(at_side(scene, pieces, *rays, side, runs));
     for (int i = 0; i < lights; ++i) {

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Makes the pictures of docs/bounds.md and docs/rectangle-view.md anew: the curves, in half a minute, and the figures.
+# Makes the pictures of docs/bounds.md and docs/rectangle-view.md anew: the curves, in a minute, and the figures.
 #
 # usage: tools/bounds.sh [PROGRAM]
 set -euo pipefail

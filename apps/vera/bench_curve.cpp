@@ -2,7 +2,6 @@
 #include "vera/base/output_file.h"
 #include "vera/base/progress_part.h"
 #include "vera/base/similar_words.h"
-#include "vera/base/version.h"
 #include "vera/theory/curve.h"
 #include "vera/theory/curve_plot.h"
 
@@ -12,12 +11,12 @@
 #include <optional>
 
 #include "bench_command.h"
+#include "curve_report.h"
 #include "interrupt.h"
 #include "option_values.h"
 #include "progress_display.h"
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace vera {
 
@@ -45,6 +44,10 @@ enum class CurveFormat { csv, svg };
 
 /// A file of curves, opened before they are counted.
 struct CurveFile {
+    CurveFile(CurveFormat written_as, const std::string& path)
+        : format(written_as)
+        , file(path) {}
+
     CurveFormat format;
     OutputFile file;
 };
@@ -126,8 +129,7 @@ std::vector<std::unique_ptr<CurveFile>> opened_files(const Request& request) {
                 "--json and '-o -' would both write to standard output: leave out one of them");
         if (std::count(request.outputs.begin(), request.outputs.end(), path) > 1)
             throw CommandLineError(fmt::format("'{}' is named twice: leave out one", path));
-        files.push_back(
-            std::unique_ptr<CurveFile>(new CurveFile{format_of(path), OutputFile(path)}));
+        files.push_back(std::make_unique<CurveFile>(format_of(path), path));
     }
     return files;
 }
@@ -142,105 +144,15 @@ counted(const std::vector<Chosen>& wanted, std::uint64_t seed, const Console& co
     ProgressDisplay display(console, "count");
     StageProgress stages(display.callback(), total);
     std::vector<Curve> curves;
+    curves.reserve(wanted.size());
     for (const Chosen& each : wanted)
         curves.push_back(counted_curve(
             *each.experiment, each.sizes, seed, stages.next(weight(each)), &console.cancel));
     return curves;
 }
 
-std::vector<double> of_points(const Curve& curve, double CountedSize::*member) {
-    std::vector<double> values;
-    for (const CountedSize& point : curve.points)
-        values.push_back(point.*member);
-    return values;
-}
-
-std::vector<double> local_exponents_of(const Curve& curve) {
-    return local_exponents(
-        of_points(curve, &CountedSize::size), of_points(curve, &CountedSize::count));
-}
-
-std::string csv(const std::vector<Curve>& curves) {
-    std::string text = "curve,size,count,bound,local_exponent,fitted\n";
-    for (const Curve& curve : curves) {
-        const std::vector<double> locals = local_exponents_of(curve);
-        for (std::size_t i = 0; i < curve.points.size(); ++i)
-            text += fmt::format(
-                "{},{},{},{:.6g},{},{}\n",
-                full_name(*curve.experiment),
-                curve.points[i].size,
-                curve.points[i].count,
-                curve.points[i].bound,
-                i == 0 ? "" : fmt::format("{:.4f}", locals[i - 1]),
-                i >= curve.first_fitted ? 1 : 0);
-    }
-    return text;
-}
-
-const char* verdict_word(Verdict verdict) {
-    return verdict == Verdict::below ? "below" : verdict == Verdict::along ? "along" : "above";
-}
-
-nlohmann::ordered_json as_json(const Curve& curve) {
-    const Experiment& experiment = *curve.experiment;
-    return {
-        {"name", experiment.name},
-        {"family", experiment.family},
-        {"input", experiment.input},
-        {"counted", experiment.counted},
-        {"unit", experiment.unit},
-        {"bound", experiment.bound},
-        {"source", experiment.source},
-        {"keeps_bound", experiment.keeps_bound},
-        {"sizes", of_points(curve, &CountedSize::size)},
-        {"counts", of_points(curve, &CountedSize::count)},
-        {"bounds", of_points(curve, &CountedSize::bound)},
-        {"local_exponents", local_exponents_of(curve)},
-        {"first_fitted", curve.fitted().front().size},
-        {"exponent", curve.growth.exponent},
-        {"half_interval", curve.growth.half_interval},
-        {"r_squared", curve.growth.r_squared},
-        {"bound_exponent", curve.bound_growth.exponent},
-        {"excess", curve.excess.exponent},
-        {"excess_uncertainty", curve.excess.uncertainty},
-        {"verdict", verdict_word(curve.verdict)}};
-}
-
-nlohmann::ordered_json as_json(const std::vector<Curve>& curves, std::uint64_t seed) {
-    nlohmann::ordered_json json = {
-        {"version", 1},
-        {"program", fmt::format("vera {}", version)},
-        {"seed", seed},
-        {"curves", nlohmann::ordered_json::array()}};
-    for (const Curve& curve : curves)
-        json["curves"].push_back(as_json(curve));
-    return json;
-}
-
-void print_table(const std::vector<Curve>& curves) {
-    fmt::print(
-        "{:<32} {:>18} {:>14} {:>7}  {:<15} {:>5}  {}\n",
-        "curve",
-        "sizes fitted",
-        "grows as n^",
-        "R^2",
-        "bound",
-        "as n^",
-        "verdict");
-    for (const Curve& curve : curves)
-        fmt::print(
-            "{:<32} {:>18} {:>14} {:>7.4f}  {:<15} {:>5.2f}  {}\n",
-            full_name(*curve.experiment),
-            fmt::format("{} to {}", curve.fitted().front().size, curve.fitted().back().size),
-            exponent_text(curve.growth),
-            curve.growth.r_squared,
-            curve.experiment->bound,
-            curve.bound_growth.exponent,
-            verdict_text(curve.verdict));
-}
-
 void write(CurveFile& file, const std::vector<Curve>& curves) {
-    file.file.write(file.format == CurveFormat::csv ? csv(curves) : curve_plot(curves));
+    file.file.write(file.format == CurveFormat::csv ? curve_csv(curves) : curve_plot(curves));
     file.file.commit();
 }
 
@@ -262,9 +174,9 @@ void count_curves(const Request& request, const Console& console) {
     for (const auto& file : files)
         write(*file, curves);
     if (request.json)
-        fmt::print("{}\n", as_json(curves, seed).dump(2));
+        fmt::print("{}\n", curve_json(curves, seed));
     else if (std::count(request.outputs.begin(), request.outputs.end(), "-") == 0)
-        print_table(curves);
+        fmt::print("{}", curve_tables(curves));
 }
 
 } // namespace
@@ -310,8 +222,10 @@ void add_bench_curve(CLI::App& bench, Console& console) {
     command->footer(
         "Steps are counted, not timed: they are the same on every machine. A power of the\n"
         "size is fitted to the upper half of the sizes, by least squares of the logarithms,\n"
-        "with its interval of 95 %. A verdict says 'for certain' where chance makes it less\n"
-        "than once in 20 times.\n"
+        "with its interval of 95 %, which a bootstrap checks. A verdict says 'for certain'\n"
+        "where chance makes it less than once in 20 times. Then follow the formulas that may\n"
+        "be meant, by Akaike's criterion and by what each foretells of the two largest sizes\n"
+        "from the smaller ones; and what counts have of each term of a bound of several.\n"
         "Examples:\n"
         "  vera bench curve --list\n"
         "  vera bench curve conjugation-tree/circle kd-tree -o nodes.svg\n"

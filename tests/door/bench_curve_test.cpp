@@ -29,8 +29,11 @@ TEST(BenchCurve, PrintsATableAndWritesPointsAndAPlot) {
         folder, "bench curve kd-tree conjugation-tree/circle --largest 512 -o a.csv -o a.svg -q");
     ASSERT_EQ(run.exit_code, 0) << run.err;
     EXPECT_EQ(run.err, "");
-    EXPECT_EQ(lines_of(run.out), 4U) << run.out;
+    // Two tables of three curves, with an empty line and a heading between.
+    EXPECT_EQ(lines_of(run.out), 4U + 2 + 4) << run.out;
+    EXPECT_THAT(run.out, HasSubstr("by a bootstrap"));
     EXPECT_THAT(run.out, HasSubstr("above the bound for certain"));
+    EXPECT_THAT(run.out, HasSubstr(" c n^1.00\n")); // boxes along a thin diagonal
     EXPECT_EQ(folder.read("a.csv").substr(0, 36), "curve,size,count,bound,local_exponen");
     EXPECT_EQ(lines_of(folder.read("a.csv")), 1U + 3 * 7);
     EXPECT_THAT(folder.read("a.svg"), HasSubstr("kd-tree"));
@@ -52,6 +55,35 @@ TEST(BenchCurve, TellsAllAsJson) {
     // Each sliver of a bundle crosses each of the other one.
     EXPECT_NEAR(curve["exponent"], 2, 0.1);
     EXPECT_NE(curve["verdict"], "above");
+    EXPECT_LE(curve["bootstrap_interval"].at(0), curve["exponent"]);
+    EXPECT_GE(curve["bootstrap_interval"].at(1), curve["exponent"]);
+    EXPECT_EQ(curve["bootstrap_verdict"], curve["verdict"]);
+    EXPECT_EQ(curve["models"].size(), 4U);
+    EXPECT_EQ(curve["models"].at(2)["formula"], curve["follows"]);
+    EXPECT_EQ(curve["models"].at(2)["aic_above_best"], 0);
+    EXPECT_EQ(curve["variables"]["n"], (std::vector<double>{96, 144, 192, 288, 384}));
+    // 16 slivers of either bundle, both long sides of each; but for one crossing, at a common end.
+    EXPECT_EQ(curve["variables"]["k"].at(0), 4 * 16 * 16 - 1);
+    const auto& structure = json["structures"].at(0);
+    EXPECT_EQ(structure["terms"], (std::vector<std::string>{"n log n", "k log n"}));
+    EXPECT_EQ(structure["families"].at(0)["family"], "grate");
+    EXPECT_GT(structure["families"].at(0)["coefficients"].at(1)["value"], 0.5);
+    EXPECT_TRUE(structure["one_for_all"].at(0).is_null());
+}
+
+TEST(BenchCurve, ComparesTheTermsOfABoundAcrossFamilies) {
+    const ScratchFolder folder;
+    const ProgramRun run = run_vera(
+        folder,
+        "bench curve visible-sweep/grate visible-terrain --sizes 32,64,128,256 -o a.csv -q");
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_THAT(run.out, HasSubstr("\nTerms: visible-sweep as c1 n log n + c2 k log n\n  grate "));
+    EXPECT_THAT(
+        run.out, HasSubstr("\nTerms: visible-terrain as c1 n log^2 n + c2 v log^2 n\n  steep "));
+    EXPECT_THAT(run.out, HasSubstr("\n  one for all "));
+    EXPECT_THAT(
+        folder.read("a.csv"), StartsWith("curve,size,count,bound,local_exponent,fitted,n,k,v\n"));
+    EXPECT_THAT(folder.read("a.csv"), HasSubstr(",1,96,1023,\n"));
 }
 
 TEST(BenchCurve, IsTheSameFromRunToRun) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/theory/curve.h"
 #include "vera/theory/curve_plot.h"
+#include "vera/theory/curve_structure.h"
 
 #include <cmath>
 #include <set>
@@ -49,6 +50,8 @@ TEST(Experiments, GrowAsTheirBoundsSay) {
             << name << ": n^" << curve.growth.exponent << " ± " << curve.growth.half_interval
             << ", the bound n^" << curve.bound_growth.exponent;
         EXPECT_LT(curve.excess.uncertainty, 0.25) << name << " tells nothing";
+        for (const CountedSize& point : curve.points)
+            EXPECT_EQ(point.variables.size(), experiment.variables.size()) << name;
         RecordProperty(name, exponent_text(curve.growth));
     }
 }
@@ -66,6 +69,7 @@ TEST(Experiments, AreDescribedAndNamedOnce) {
               experiment.bound,
               experiment.source})
             EXPECT_FALSE(text.empty()) << full_name(experiment);
+        EXPECT_EQ(experiment.terms.empty(), experiment.variables.empty());
         for (const std::size_t last : {experiment.last, experiment.last_in_tests})
             EXPECT_EQ(problem_with_sizes(experiment, sizes_up_to(experiment, last)), "");
     }
@@ -155,6 +159,82 @@ TEST(Curve, TellsHowFarItIsAndCanBeStopped) {
     EXPECT_THROW(counted_curve(experiment, sizes, 1, {}, &cancel), Cancelled);
 }
 
+TEST(Curve, HasABoundThatIsTheSumOfItsTerms) {
+    const std::vector<BoundTerm> terms = {
+        {"a", [](std::span<const double> ab) { return 3 * ab[0]; }},
+        {"b", [](std::span<const double> ab) { return ab[0] * ab[1]; }}};
+    const CountedSize point = counted_by_terms(7, 11, {2, 5}, terms);
+    EXPECT_EQ(point.size, 7);
+    EXPECT_EQ(point.count, 11);
+    EXPECT_EQ(point.bound, 16);
+    EXPECT_THAT(point.variables, ElementsAre(2, 5));
+}
+
+TEST(Curve, IsCheckedByABootstrap) {
+    const Curve below = counted(power_experiment(0.6, 0.7));
+    EXPECT_EQ(below.resampled_verdict, Verdict::below);
+    EXPECT_FALSE(below.is_contradicted());
+    EXPECT_LT(below.resampled.both_ways.lower, below.growth.exponent);
+    EXPECT_GT(below.resampled.both_ways.upper, below.growth.exponent);
+    EXPECT_LT(below.resampled_excess.one_way.upper, 0);
+    // Of four points that rise but for a little, t is not certain, and residuals as small as these
+    // have never been larger.
+    const Experiment experiment = power_experiment(1, 1);
+    const Curve unsure = fitted_curve(
+        experiment, 1, {{16, 100, 100}, {32, 107, 100}, {64, 106, 100}, {128, 113, 100}});
+    EXPECT_EQ(unsure.verdict, Verdict::above);
+    const Curve more = fitted_curve(
+        experiment, 1, {{16, 100, 100}, {32, 108, 100}, {64, 103, 100}, {128, 111, 100}});
+    EXPECT_EQ(more.verdict, Verdict::along);
+    EXPECT_EQ(more.resampled_verdict, Verdict::above);
+    EXPECT_TRUE(more.is_contradicted());
+}
+
+TEST(Curve, TellsWhichFormulaItFollows) {
+    const Curve curve = counted(power_experiment(0.8, 0.7));
+    EXPECT_EQ(followed_text(curve), "c n^0.80");
+    EXPECT_THAT(followed_text(counted(power_experiment(1, 0.7))), HasSubstr("c n"));
+}
+
+/// Counts that are made of n and k with those coefficients, k being n^1.5 or n^2.
+Experiment two_terms(const char* family, double of_n, double of_k, double power_of_k) {
+    Experiment experiment = power_experiment(1, 1);
+    experiment.family = family;
+    experiment.variables = {"n", "k"};
+    experiment.terms = {
+        {"n", [](std::span<const double> nk) { return nk[0]; }},
+        {"k", [](std::span<const double> nk) { return nk[1]; }}};
+    experiment.count =
+        [=, terms = experiment.terms](std::size_t size, std::uint64_t seed, const CancelFlag*) {
+            const auto n = static_cast<double>(size);
+            const double k = std::pow(n, power_of_k);
+            const double noise = 1 + 0.001 * static_cast<double>(seed % 100) / 100;
+            return counted_by_terms(n, noise * (of_n * n + of_k * k), {n, k}, terms);
+        };
+    return experiment;
+}
+
+TEST(CurveStructure, TellsWhetherFamiliesHaveOneCoefficient) {
+    const Experiment first = two_terms("first", 5, 2, 1.5);
+    const Experiment second = two_terms("second", 5, 3, 2);
+    const Experiment without = power_experiment(1, 1);
+    Experiment other = without;
+    other.name = "another";
+    const std::vector<Curve> curves = {counted(first), counted(second), counted(other)};
+    const std::vector<CurveStructure> found = structures(curves);
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(structure_text(*found[0].experiment), "c1 n + c2 k");
+    EXPECT_THAT(found[0].families, ElementsAre("first", "second"));
+    EXPECT_NEAR(found[0].fits[0].coefficients[0]->value, 5, 0.02);
+    EXPECT_NEAR(found[0].fits[0].coefficients[1]->value, 2, 0.01);
+    EXPECT_NEAR(found[0].fits[1].coefficients[1]->value, 3, 0.01);
+    EXPECT_THAT(found[0].same, ElementsAre(true, false));
+    EXPECT_GT(found[0].together->error, 10 * found[0].fits[0].error);
+    EXPECT_EQ(coefficient_text(TermCoefficient{1.5, 1, 2.25}), "1.5 (1 to 2.25)");
+    EXPECT_EQ(coefficient_text(TermCoefficient{0, 0, 0}), "0 (else negative)");
+    EXPECT_EQ(coefficient_text(std::nullopt), "not told");
+}
+
 TEST(CurvePlot, ShowsEachCurveAndItsExponent) {
     const Experiment plain = power_experiment(0.6, 0.7);
     Experiment other = power_experiment(0.8, 0.7);
@@ -167,7 +247,8 @@ TEST(CurvePlot, ShowsEachCurveAndItsExponent) {
     std::size_t points = 0;
     for (std::size_t at = 0; (at = svg.find("<circle", at)) != std::string::npos; ++at)
         ++points;
-    EXPECT_EQ(points, 2 * (17U + 1));
+    EXPECT_EQ(points, 2 * (17U + 16U + 1)); // and local exponents, and the legend
+    EXPECT_THAT(svg, HasSubstr("exponent from size to size"));
     EXPECT_EQ(svg, curve_plot(curves));
 }
 

@@ -358,7 +358,7 @@ TEST(RectangleView, TakesStepsWithWhatIsSeenAndNotWithWhatCrosses) {
         WindowCounts counts;
         const RectangleView view = rectangle_view(rectangles, &counts);
         EXPECT_EQ(view.corners.size(), 4U);
-        SweepCounts sweep;
+        PlaneSweepCounts sweep;
         plane_sweep(screen_scene(rectangles), {std::nullopt, &sweep});
         sizes.push_back(static_cast<double>(count));
         steps.push_back(static_cast<double>(counts.steps()));

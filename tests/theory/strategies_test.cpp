@@ -98,7 +98,7 @@ Growths growths(const std::function<ScreenScene(std::size_t)>& family) {
         const ScreenScene scene = family(size);
         DepthCounts depth;
         sources_by_depth(scene, 128, depth);
-        SweepCounts sweep;
+        PlaneSweepCounts sweep;
         plane_sweep(scene, {std::nullopt, &sweep});
         QueryCounts rays;
         GridRays(scene).hits(64, rays);

@@ -295,16 +295,14 @@ struct Steps {
 Steps steps_of(const ScreenScene& scene) {
     TerrainCounts counts;
     const VisiblePieces pieces = terrain_pieces(scene, Upward::with_y, &counts);
-    SweepCounts swept;
+    PlaneSweepCounts swept;
     plane_sweep(scene, {std::nullopt, &swept});
     return {
         static_cast<double>(scene.triangles.size()),
         static_cast<double>(swept.crossings),
         static_cast<double>(pieces.points.size()),
         static_cast<double>(counts.steps()),
-        static_cast<double>(
-            swept.orientations + swept.comparisons + swept.queued + swept.insertions
-            + swept.depth_orders)};
+        static_cast<double>(swept.steps())};
 }
 
 /// What is crossed grows faster than the triangles, and so do the steps of a sweep; those of the

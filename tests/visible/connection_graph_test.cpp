@@ -76,14 +76,14 @@ std::size_t ways_round_faces(const ConnectionGraph& graph, const Segments& segme
     return ways;
 }
 
-ConnectionGraph graph_of(const Segments& segments, SweepCounts& counts) {
+ConnectionGraph graph_of(const Segments& segments, PlaneSweepCounts& counts) {
     return connection_graph(segments, 0, counts);
 }
 
 /// V - E + F = 2, which is true of a plane graph only if it is connected; and every vertex but the
 /// first has a drain.
 void expect_connected(
-    const ConnectionGraph& graph, const Segments& segments, const SweepCounts& counts) {
+    const ConnectionGraph& graph, const Segments& segments, const PlaneSweepCounts& counts) {
     const std::size_t edges = graph.edges.size() + counts.drains;
     EXPECT_EQ(graph.vertex_count() + ways_round_faces(graph, segments), edges + 2);
     EXPECT_EQ(counts.corners + counts.crossings, graph.vertex_count());
@@ -114,7 +114,7 @@ TEST(ConnectionGraph, OfALatticeWithDiagonalsHasItsCrossingsOnce) {
         add(0, i, m - i, m);
         add(i, m, m, i);
     }
-    SweepCounts counts;
+    PlaneSweepCounts counts;
     const ConnectionGraph graph = graph_of(segments, counts);
     EXPECT_EQ(graph.vertex_count(), std::size_t{(m + 1) * (m + 1) + m * m});
     EXPECT_EQ(ways_round_faces(graph, segments), std::size_t{4 * m * m + 1});
@@ -128,7 +128,7 @@ TEST(ConnectionGraph, OfTwoBundlesHasAQuarterOfTheSquareOfCrossings) {
         segments.push_back({{0, 3 * i}, {screen_size, screen_size / 2 + 5 * i}});
         segments.push_back({{0, screen_size - 3 * i}, {screen_size, 1000 - 7 * i}});
     }
-    SweepCounts counts;
+    PlaneSweepCounts counts;
     const ConnectionGraph graph = graph_of(segments, counts);
     EXPECT_EQ(counts.crossings, std::uint64_t{half * half});
     EXPECT_EQ(counts.queued, counts.crossings);
@@ -144,7 +144,7 @@ TEST(ConnectionGraph, IsConnectedAndPlaneWhateverFallsTogether) {
             ? testing::layers(seed, 1 + seed % 40, std::int32_t{1} << (1 + seed % 4))
             : testing::slivers(seed, 1 + seed % 40);
         const SweepSegments segments = sweep_segments(scene, screen_edges(scene));
-        SweepCounts counts;
+        PlaneSweepCounts counts;
         const ConnectionGraph graph = graph_of(segments.segments, counts);
         expect_connected(graph, segments.segments, counts);
     }
@@ -180,7 +180,7 @@ TEST(ConnectionGraph, HasEveryCrossingOfEveryPair) {
                 if (within(on_a) && within(on_b))
                     ++expected[point_at(a.begin, a.end, on_a)];
             }
-        SweepCounts counts;
+        PlaneSweepCounts counts;
         const ConnectionGraph graph = graph_of(segments, counts);
         const SweepPredicates predicates(segments, counts);
         ASSERT_EQ(graph.vertex_count(), expected.size());
@@ -233,7 +233,7 @@ TEST(SweepPredicates, AgreeWithFractions) {
     for (const std::int32_t range : {5, 40, screen_size + 1}) {
         for (int round = 0; round < 100; ++round) {
             const Segments segments = random_segments(random, range);
-            SweepCounts counts;
+            PlaneSweepCounts counts;
             const SweepPredicates predicates(segments, counts);
             const std::vector<SweepPoint> points = points_of(segments, predicates);
             for (const SweepPoint& a : points) {
@@ -282,7 +282,7 @@ TEST(InclusionSet, HoldsBelowEachEdgeWhatCoversItThereFromTheFrontToTheBack) {
         for (const ScreenTriangle& triangle : scene.triangles)
             slopes.push_back(nearness_slope(depth_plane(corners_of(scene, triangle))));
         const SweepSegments segments = sweep_segments(scene, screen_edges(scene));
-        SweepCounts counts;
+        PlaneSweepCounts counts;
         const ConnectionGraph graph = graph_of(segments.segments, counts);
         InclusionSet set(scene, slopes, counts);
         std::size_t edges = 0;

@@ -105,19 +105,16 @@ CellCounts counted_cells(const ScreenScene& scene) {
     return counts;
 }
 
-SweepCounts counted_sweep(const ScreenScene& scene) {
-    SweepCounts counts;
+PlaneSweepCounts counted_sweep(const ScreenScene& scene) {
+    PlaneSweepCounts counts;
     PlaneSweepSettings settings;
     settings.counts = &counts;
     plane_sweep(scene, settings);
     return counts;
 }
 
-/// Of the bound: without entries of sets that are moved.
-double steps(const SweepCounts& counts) {
-    return static_cast<double>(
-        counts.orientations + counts.comparisons + counts.queued + counts.insertions
-        + counts.depth_orders);
+double steps(const PlaneSweepCounts& counts) {
+    return static_cast<double>(counts.steps());
 }
 
 double steps(const CellCounts& counts) {
@@ -136,7 +133,7 @@ TEST(EngineCounts, OfTheSweepGrowNoFasterThanItsBound) {
         double before = 0;
         for (const std::size_t size : sizes(first)) {
             const ScreenScene scene = family(size);
-            const SweepCounts counts = counted_sweep(scene);
+            const PlaneSweepCounts counts = counted_sweep(scene);
             const auto n = static_cast<double>(scene.triangles.size());
             const double bound = (n + static_cast<double>(counts.crossings)) * std::log2(n);
             const double part = steps(counts) / bound;
@@ -191,7 +188,7 @@ TEST(EngineCounts, AreThoseOfAFormulaWhereNothingMeets) {
     EXPECT_EQ(cells.events, 6 * count);   // where their own triangle begins and ends
     EXPECT_EQ(cells.active, 3 * count);   // between
     EXPECT_GE(cells.touched, cells.entries);
-    const SweepCounts sweep = counted_sweep(stripes(count));
+    const PlaneSweepCounts sweep = counted_sweep(stripes(count));
     EXPECT_EQ(sweep.segments, 3 * count);
     EXPECT_EQ(sweep.crossings, 0U);
     EXPECT_EQ(sweep.insertions, count);

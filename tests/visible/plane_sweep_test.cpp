@@ -169,7 +169,7 @@ TEST(PlaneSweep, SeesLikeTheCellsWholeScenes) {
 
 TEST(PlaneSweep, RefusesWhatMemoryWouldNotHold) {
     const ScreenScene scene = testing::scattered(1, 400, screen_size / 2);
-    SweepCounts counts;
+    PlaneSweepCounts counts;
     plane_sweep(scene, {std::nullopt, &counts});
     const SweepForecast forecast = sweep_forecast(scene);
     // Of so few edges all pairs are asked.
@@ -190,7 +190,7 @@ TEST(PlaneSweep, RefusesWhatMemoryWouldNotHold) {
 
 TEST(PlaneSweep, ForecastsFromSomePairsHowManyCrossingsThereAre) {
     const ScreenScene scene = testing::scattered(2, 3000, screen_size / 4);
-    SweepCounts counts;
+    PlaneSweepCounts counts;
     plane_sweep(scene, {std::nullopt, &counts});
     EXPECT_NEAR(sweep_forecast(scene).crossings / static_cast<double>(counts.crossings), 1, 0.1);
 }

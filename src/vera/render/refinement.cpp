@@ -32,8 +32,7 @@ double largest_difference(Color a, Color b) {
 /// Whether at least so many places of the window show the same surface as one does.
 template <typename Window>
 bool shows(const Window& window, const Seen& one, int wanted) {
-    return window.any(
-        [&](const Seen& other) { return same_surface(one, other) && --wanted == 0; });
+    return window.any([&](const Seen& other) { return same_surface(one, other) && --wanted == 0; });
 }
 
 template <typename Window>

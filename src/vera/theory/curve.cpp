@@ -24,10 +24,10 @@ std::vector<double> values_of(std::span<const CountedSize> points, const Value& 
     return values;
 }
 
-Verdict verdict_of(const Growth& excess) {
-    if (excess.exponent - excess.uncertainty > rounding)
+Verdict verdict_of(Interval excess) {
+    if (excess.lower > rounding)
         return Verdict::above;
-    return excess.exponent + excess.uncertainty < -rounding ? Verdict::below : Verdict::along;
+    return excess.upper < -rounding ? Verdict::below : Verdict::along;
 }
 
 } // namespace
@@ -42,6 +42,17 @@ const char* verdict_text(Verdict verdict) {
         break;
     }
     return "above the bound for certain";
+}
+
+std::vector<std::span<const Curve>> curves_by_name(std::span<const Curve> curves) {
+    std::vector<std::span<const Curve>> groups;
+    std::size_t first = 0;
+    for (std::size_t i = 1; i <= curves.size(); ++i)
+        if (i == curves.size() || curves[i].experiment->name != curves[first].experiment->name) {
+            groups.push_back(curves.subspan(first, i - first));
+            first = i;
+        }
+    return groups;
 }
 
 std::string problem_with_sizes(const Experiment& experiment, std::span<const std::size_t> sizes) {
@@ -72,8 +83,7 @@ Curve fitted_curve(
     curve.experiment = &experiment;
     curve.seed = seed;
     curve.points = std::move(points);
-    const std::size_t count = curve.points.size();
-    curve.first_fitted = count - std::max(least_sizes_of_curve, (count + 1) / 2);
+    curve.first_fitted = first_to_fit(curve.points.size());
     const auto sizes = values_of(curve.fitted(), std::mem_fn(&CountedSize::size));
     const auto counts = values_of(curve.fitted(), std::mem_fn(&CountedSize::count));
     const auto bounds = values_of(curve.fitted(), std::mem_fn(&CountedSize::bound));
@@ -82,7 +92,13 @@ Curve fitted_curve(
     curve.growth = growth(sizes, counts);
     curve.bound_growth = growth(sizes, bounds);
     curve.excess = growth(sizes, parts);
-    curve.verdict = verdict_of(curve.excess);
+    const Growth& excess = curve.excess;
+    curve.verdict =
+        verdict_of({excess.exponent - excess.uncertainty, excess.exponent + excess.uncertainty});
+    curve.resampled = resampled_growth(sizes, counts);
+    curve.resampled_excess = resampled_growth(sizes, parts);
+    curve.resampled_verdict = verdict_of(curve.resampled_excess.one_way);
+    curve.models = model_fits(curve.points);
     return curve;
 }
 

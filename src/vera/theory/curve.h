@@ -3,6 +3,8 @@
 
 #include "vera/theory/experiment.h"
 #include "vera/theory/growth.h"
+#include "vera/theory/growth_models.h"
+#include "vera/theory/residual_bootstrap.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -33,9 +35,19 @@ struct Curve {
     Growth bound_growth; ///< of the bound at the same inputs: logarithms look like powers
     Growth excess;       ///< of the counts by the bound
     Verdict verdict = Verdict::along;
+    ResampledGrowth resampled;        ///< the growth, checked by a bootstrap
+    ResampledGrowth resampled_excess; ///< and the excess
+    Verdict resampled_verdict = Verdict::along;
+    std::vector<ModelFit> models; ///< what formula the counts follow
+
+    /// Whether the check by a bootstrap comes to another verdict.
+    bool is_contradicted() const { return resampled_verdict != verdict; }
 
     std::span<const CountedSize> fitted() const { return std::span(points).subspan(first_fitted); }
 };
+
+/// Those of each name, which stand in a row.
+std::vector<std::span<const Curve>> curves_by_name(std::span<const Curve> curves);
 
 /// The fewest and the most sizes of a curve.
 constexpr std::size_t least_sizes_of_curve = 4;

@@ -2,11 +2,13 @@
 #include "vera/theory/curve_plot.h"
 
 #include "vera/math/elementary.h"
+#include "vera/theory/curve_structure.h"
 #include "vera/theory/diagram.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <optional>
 
 #include <fmt/format.h>
@@ -20,7 +22,9 @@ constexpr double plot_height = 330;
 constexpr double left_margin = 74;
 constexpr double right_margin = 24;
 constexpr double top_margin = 62;
-constexpr double below_plot = 58;
+constexpr double strip_gap = 22; ///< between the plot and that of local exponents
+constexpr double strip_height = 84;
+constexpr double below_strip = 58;
 constexpr double legend_line = 17;
 
 /// Beyond this number of curves in a panel only the highest one's bound is drawn.
@@ -41,8 +45,8 @@ const char* color_of(std::size_t number) {
     return curve_colors.at(number % curve_colors.size());
 }
 
-/// The power of ten that is not above the value, or not below it.
-struct Decades {
+/// Ends belong to it.
+struct WholeRange {
     int first = 0;
     int last = 0;
 };
@@ -61,7 +65,7 @@ public:
         highest_ = highest_ ? std::max(*highest_, at) : at;
     }
 
-    Decades found() const {
+    WholeRange found() const {
         constexpr double rounding = 1e-9;
         const int first = static_cast<int>(std::floor(lowest_.value_or(0) + rounding));
         const int last = static_cast<int>(std::ceil(highest_.value_or(1) - rounding));
@@ -73,6 +77,47 @@ private:
     std::optional<double> highest_;
 };
 
+/// Whole numbers that hold all values, and at least one apart.
+WholeRange whole_range(std::span<const double> values) {
+    const auto [lowest, highest] = std::minmax_element(values.begin(), values.end());
+    const int first = static_cast<int>(std::floor(*lowest));
+    return {first, std::max(static_cast<int>(std::ceil(*highest)), first + 1)};
+}
+
+std::vector<double> local_exponents_of(const Curve& curve) {
+    std::vector<double> sizes;
+    std::vector<double> counts;
+    for (const CountedSize& point : curve.points) {
+        sizes.push_back(point.size);
+        counts.push_back(point.count);
+    }
+    return local_exponents(sizes, counts);
+}
+
+/// What is said below the legend: what a star means, where there is one; and what each family has
+/// of the terms of a bound of several.
+std::vector<std::string> notes_of(std::span<const Curve> curves) {
+    std::vector<std::string> lines;
+    if (std::any_of(curves.begin(), curves.end(), std::mem_fn(&Curve::is_contradicted)))
+        lines.emplace_back("* A bootstrap comes to another verdict.");
+    for (const CurveStructure& found : structures(curves)) {
+        const std::vector<BoundTerm>& terms = found.experiment->terms;
+        for (std::size_t i = 0; i < found.families.size(); ++i) {
+            std::string sum;
+            for (std::size_t term = 0; term < terms.size(); ++term)
+                if (const auto& coefficient = found.fits[i].coefficients[term])
+                    sum += fmt::format(
+                        "{}{:.3g} {}",
+                        sum.empty() ? "" : " + ",
+                        coefficient->value,
+                        terms[term].formula);
+            lines.push_back(fmt::format(
+                "{}: {}, off by {:.1f} %", found.families[i], sum, 100 * found.fits[i].error));
+        }
+    }
+    return lines;
+}
+
 /// The curves of one name, and where they are drawn.
 class Panel {
 public:
@@ -82,7 +127,10 @@ public:
         , left_(corner.x + left_margin)
         , right_(corner.x + panel_width - right_margin)
         , top_(corner.y + top_margin)
-        , bottom_(corner.y + top_margin + plot_height) {
+        , bottom_(corner.y + top_margin + plot_height)
+        , strip_top_(bottom_ + strip_gap)
+        , strip_bottom_(strip_top_ + strip_height)
+        , notes_(notes_of(curves)) {
         DecadesOf across;
         DecadesOf upward;
         for (const Curve& curve : curves)
@@ -95,6 +143,12 @@ public:
                 upward.add(bound_beside(curve, point));
         sizes_ = across.found();
         counts_ = upward.found();
+        std::vector<double> locals;
+        for (const Curve& curve : curves) {
+            const std::vector<double> some = local_exponents_of(curve);
+            locals.insert(locals.end(), some.begin(), some.end());
+        }
+        exponents_ = whole_range(locals);
     }
 
     void draw() {
@@ -104,12 +158,14 @@ public:
             add_bound(curve);
         for (std::size_t i = 0; i < curves_.size(); ++i)
             add_curve(curves_[i], color_of(i));
+        for (std::size_t i = 0; i < curves_.size(); ++i)
+            add_local_exponents(curves_[i], color_of(i));
         add_legend();
     }
 
     static double height(std::span<const Curve> curves) {
-        return top_margin + plot_height + below_plot
-            + legend_line * static_cast<double>(curves.size() + 2);
+        return top_margin + plot_height + strip_gap + strip_height + below_strip
+            + legend_line * static_cast<double>(curves.size() + 3 + notes_of(curves).size());
     }
 
 private:
@@ -139,6 +195,13 @@ private:
                     * (bottom_ - top_)};
     }
 
+    double place_x(double size) const { return place(size, 1).x; }
+
+    double strip_y(double exponent) const {
+        return strip_bottom_
+            - (exponent - exponents_.first) / (exponents_.last - exponents_.first) * strip_height;
+    }
+
     void add_heading() {
         const Experiment& experiment = *curves_.front().experiment;
         diagram_.text(
@@ -155,14 +218,25 @@ private:
             diagram_.text({left_ - 7, y + 4}, power_text(power), label);
         }
         for (int power = sizes_.first; power <= sizes_.last; ++power) {
-            const double x = place(std::pow(10.0, power), 1).x;
+            const double x = place_x(std::pow(10.0, power));
             diagram_.line({x, top_}, {x, bottom_}, pen);
+            diagram_.line({x, strip_top_}, {x, strip_bottom_}, pen);
             diagram_.text(
-                {x, bottom_ + 18}, power_text(power), {11, diagram_colors::faint, "middle"});
+                {x, strip_bottom_ + 18}, power_text(power), {11, diagram_colors::faint, "middle"});
+        }
+        // Not so close that the numbers would touch.
+        const int step = (exponents_.last - exponents_.first + 3) / 4;
+        for (int exponent = exponents_.first; exponent <= exponents_.last; exponent += step) {
+            const double y = strip_y(exponent);
+            diagram_.line({left_, y}, {right_, y}, pen);
+            diagram_.text({left_ - 7, y + 4}, std::to_string(exponent), label);
         }
         diagram_.line({left_, bottom_}, {right_, bottom_}, {diagram_colors::faint});
+        diagram_.line({left_, strip_bottom_}, {right_, strip_bottom_}, {diagram_colors::faint});
         diagram_.text(
-            {(left_ + right_) / 2, bottom_ + 36},
+            {left_, strip_top_ - 7}, "exponent from size to size", {11, diagram_colors::faint});
+        diagram_.text(
+            {(left_ + right_) / 2, strip_bottom_ + 36},
             curves_.front().experiment->unit,
             {11, diagram_colors::faint, "middle"});
     }
@@ -195,21 +269,39 @@ private:
         }
     }
 
+    /// Each in the middle of its two sizes. A drift tells that the counts are no power.
+    void add_local_exponents(const Curve& curve, const char* color) {
+        const std::vector<double> exponents = local_exponents_of(curve);
+        std::vector<DrawingPoint> points;
+        for (std::size_t i = 0; i < exponents.size(); ++i)
+            points.push_back(
+                {(place_x(curve.points[i].size) + place_x(curve.points[i + 1].size)) / 2,
+                 strip_y(exponents[i])});
+        diagram_.polyline(points, {color, 1});
+        for (std::size_t i = 0; i < points.size(); ++i)
+            diagram_.circle(
+                points[i], 1.8, i >= curve.first_fitted ? color : "#ffffff", {color, 0.8});
+    }
+
     void add_legend() {
-        double y = bottom_ + below_plot;
+        double y = strip_bottom_ + below_strip;
         for (std::size_t i = 0; i < curves_.size(); ++i, y += legend_line) {
             const Curve& curve = curves_[i];
             diagram_.circle({left_ + 4, y - 4}, 4, color_of(i));
             diagram_.text({left_ + 16, y}, curve.experiment->family);
             diagram_.text({left_ + 130, y}, "n^" + exponent_text(curve.growth));
-            diagram_.text({left_ + 240, y}, verdict_on_bound(curve));
+            diagram_.text(
+                {left_ + 240, y}, verdict_on_bound(curve) + (curve.is_contradicted() ? " *" : ""));
         }
         const DiagramText style = {11, diagram_colors::faint};
         diagram_.text(
             {left_, y + 4},
             "Solid: the power fitted to the full points. Dashed: the bound, from the first on.",
             style);
-        diagram_.text({left_, y + 4 + legend_line}, "Bound: " + sources(), style);
+        y += 4 + legend_line;
+        diagram_.text({left_, y}, "Bound: " + sources(), style);
+        for (const std::string& line : notes_)
+            diagram_.text({left_, y += legend_line}, line, style);
     }
 
     static std::string verdict_on_bound(const Curve& curve) {
@@ -241,21 +333,13 @@ private:
     double right_;
     double top_;
     double bottom_;
-    Decades sizes_;
-    Decades counts_;
+    double strip_top_;
+    double strip_bottom_;
+    std::vector<std::string> notes_;
+    WholeRange sizes_;
+    WholeRange counts_;
+    WholeRange exponents_; ///< whole numbers
 };
-
-/// Those of each name, which stand in a row.
-std::vector<std::span<const Curve>> by_name(std::span<const Curve> curves) {
-    std::vector<std::span<const Curve>> groups;
-    std::size_t first = 0;
-    for (std::size_t i = 1; i <= curves.size(); ++i)
-        if (i == curves.size() || curves[i].experiment->name != curves[first].experiment->name) {
-            groups.push_back(curves.subspan(first, i - first));
-            first = i;
-        }
-    return groups;
-}
 
 } // namespace
 
@@ -263,8 +347,22 @@ std::string exponent_text(const Growth& growth) {
     return fmt::format("{:.2f} ± {:.2f}", growth.exponent, growth.half_interval);
 }
 
+std::string interval_text(const Interval& interval) {
+    return fmt::format("{:.2f} to {:.2f}", interval.lower, interval.upper);
+}
+
+std::string followed_text(const Curve& curve) {
+    const std::string& bound = curve.experiment->bound;
+    const ModelFit& best = best_model(curve.models);
+    std::string text = model_text(best, bound);
+    for (const ModelFit& model : curve.models)
+        if (&model != &best && model.information <= told_apart_from)
+            text += ", or " + model_text(model, bound);
+    return text;
+}
+
 std::string curve_plot(std::span<const Curve> curves) {
-    const auto groups = by_name(curves);
+    const auto groups = curves_by_name(curves);
     const std::size_t columns = groups.size() > 1 ? 2 : 1;
     std::vector<double> tops = {0};
     for (std::size_t i = 0; i < groups.size(); i += columns) {

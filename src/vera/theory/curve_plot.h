@@ -15,4 +15,11 @@ std::string curve_plot(std::span<const Curve> curves);
 /// A power for people: "0.47 ± 0.05", where the second number is half the interval of 95 %.
 std::string exponent_text(const Growth& growth);
 
+/// "0.43 to 0.51"
+std::string interval_text(const Interval& interval);
+
+/// The formula that counts follow best, and the others that are not told apart from it:
+/// "c n log n, or c n^1.08".
+std::string followed_text(const Curve& curve);
+
 } // namespace vera

@@ -3,8 +3,17 @@
 
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 namespace vera {
+
+CountedSize counted_by_terms(
+    double size, double count, std::vector<double> variables, std::span<const BoundTerm> terms) {
+    double bound = 0;
+    for (const BoundTerm& term : terms)
+        bound += term.value(variables);
+    return {size, count, bound, std::move(variables)};
+}
 
 std::string full_name(const Experiment& experiment) {
     return experiment.name + "/" + experiment.family;

@@ -21,6 +21,13 @@ struct CountedSize {
     double size = 0;
     double count = 0;
     double bound = 0;
+    std::vector<double> variables = {}; ///< of the experiment's terms: n, k; none: the size alone
+};
+
+/// What a bound of several variables adds up.
+struct BoundTerm {
+    std::string formula; ///< "k log n"
+    std::function<double(std::span<const double> variables)> value;
 };
 
 /// Counts one input of about the size, made with the seed; the same for the same two numbers.
@@ -30,21 +37,27 @@ using CountOfSize =
 
 /// One curve.
 struct Experiment {
-    std::string name;              ///< of the structure; curves of one name are drawn together
-    std::string family;            ///< of the inputs; the two name the curve, as "NAME/FAMILY"
-    std::string input;             ///< the same for people: "points on a circle"
-    std::string counted;           ///< what: "nodes that a half-plane looks at, the most of 300"
-    std::string unit;              ///< what sizes count: "points"
-    std::string bound;             ///< as a formula: "n^0.695"
-    std::string source;            ///< who says so: "VERA 3.3.1"
-    std::size_t first = 0;         ///< size
-    std::size_t last = 0;          ///< when nothing else is asked for
-    std::size_t last_in_tests = 0; ///< which take a second or so for all curves of a name
-    std::size_t most = 0;          ///< larger sizes are refused
-    int sizes_a_doubling = 2;      ///< 1 where halving down to a few makes steps of their own
-    bool keeps_bound = true;       ///< not so of those that show what breaks it
+    std::string name;    ///< of the structure; curves of one name are drawn together
+    std::string family;  ///< of the inputs; the two name the curve, as "NAME/FAMILY"
+    std::string input;   ///< the same for people: "points on a circle"
+    std::string counted; ///< what: "nodes that a half-plane looks at, the most of 300"
+    std::string unit;    ///< what sizes count: "points"
+    std::string bound;   ///< as a formula: "n^0.695"
+    std::string source;  ///< who says so: "VERA 3.3.1"
+    std::vector<std::string> variables; ///< of the terms: "n", "k"; none: the bound has but one
+    std::vector<BoundTerm> terms;       ///< whose sum the bound is, where it has variables
+    std::size_t first = 0;              ///< size
+    std::size_t last = 0;               ///< when nothing else is asked for
+    std::size_t last_in_tests = 0;      ///< which take a second or so for all curves of a name
+    std::size_t most = 0;               ///< larger sizes are refused
+    int sizes_a_doubling = 2;           ///< 1 where halving down to a few makes steps of their own
+    bool keeps_bound = true;            ///< not so of those that show what breaks it
     CountOfSize count;
 };
+
+/// With the sum of the terms for a bound.
+CountedSize counted_by_terms(
+    double size, double count, std::vector<double> variables, std::span<const BoundTerm> terms);
 
 /// "NAME/FAMILY"
 std::string full_name(const Experiment& experiment);

@@ -367,7 +367,7 @@ DrawnFigure figure_of_connection_graph() {
     const ScreenScene scene = scene_of(polygons);
     const VisibleMap map = visible_map(scene, plane_sweep(scene));
     const std::vector<SweepSegments::Segment> segments = segments_of(polygons);
-    SweepCounts counts;
+    PlaneSweepCounts counts;
     const ConnectionGraph graph = connection_graph(segments, 0, counts);
 
     Diagram diagram(1120, 640, "Figure A1: a scene and its connection graph");
@@ -416,7 +416,7 @@ DrawnFigure figure_of_connection_graph() {
 
 DrawnFigure figure_of_traversal() {
     const std::vector<SweepSegments::Segment> segments = segments_of_star();
-    SweepCounts counts;
+    PlaneSweepCounts counts;
     const ConnectionGraph graph = connection_graph(segments, 0, counts);
     const std::vector<PassedEdge> passed = passed_edges(graph, segments);
     const std::uint32_t vertex = vertex_at(graph, {50 * unit, 50 * unit});

@@ -97,7 +97,7 @@ DrawnFigure figure_of_windows() {
     const std::vector<IsoRectangle> rectangles = windows(16);
     WindowCounts counts;
     const RectangleView view = rectangle_view(rectangles, &counts);
-    SweepCounts swept;
+    PlaneSweepCounts swept;
     PlaneSweepSettings settings;
     settings.counts = &swept;
     plane_sweep(screen_scene(rectangles), settings);

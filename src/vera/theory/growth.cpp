@@ -2,32 +2,18 @@
 #include "vera/theory/growth.h"
 
 #include "vera/math/elementary.h"
+#include "vera/theory/line_fit.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <stdexcept>
 #include <string>
 
 namespace vera {
 
 namespace {
-
-/// Student's t with 1, 2, ... degrees of freedom, the last one for all beyond, where it is too
-/// large by a hundredth or two.
-constexpr std::array<double, 30> student_one_way = {
-    6.314, 2.920, 2.353, 2.132, 2.015, 1.943, 1.895, 1.860, 1.833, 1.812,
-    1.796, 1.782, 1.771, 1.761, 1.753, 1.746, 1.740, 1.734, 1.729, 1.725,
-    1.721, 1.717, 1.714, 1.711, 1.708, 1.706, 1.703, 1.701, 1.699, 1.697};
-constexpr std::array<double, 30> student_both_ways = {
-    12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228,
-    2.201,  2.179, 2.160, 2.145, 2.131, 2.120, 2.110, 2.101, 2.093, 2.086,
-    2.080,  2.074, 2.069, 2.064, 2.060, 2.056, 2.052, 2.048, 2.045, 2.042};
-
-double student(const std::array<double, 30>& table, std::size_t freedom) {
-    return table.at(std::min(freedom, table.size()) - 1);
-}
 
 void require_positive(std::span<const double> sizes, std::span<const double> counts) {
     if (sizes.size() != counts.size())
@@ -39,10 +25,7 @@ void require_positive(std::span<const double> sizes, std::span<const double> cou
                 + std::to_string(i + 1) + " is not");
 }
 
-struct Logarithms {
-    std::vector<double> of_sizes;
-    std::vector<double> of_counts;
-};
+} // namespace
 
 Logarithms logarithms(std::span<const double> sizes, std::span<const double> counts) {
     require_positive(sizes, counts);
@@ -54,43 +37,27 @@ Logarithms logarithms(std::span<const double> sizes, std::span<const double> cou
     return logs;
 }
 
-double mean(std::span<const double> values) {
-    double sum = 0;
-    for (const double value : values)
-        sum += value;
-    return sum / static_cast<double>(values.size());
-}
-
-} // namespace
-
 Growth growth(std::span<const double> sizes, std::span<const double> counts) {
     const Logarithms logs = logarithms(sizes, counts);
     if (sizes.size() < least_sizes_of_growth)
         throw std::invalid_argument("growth is told by 3 sizes or more");
-    const double mean_x = mean(logs.of_sizes);
-    const double mean_y = mean(logs.of_counts);
-    double xx = 0;
-    double xy = 0;
-    double yy = 0;
-    for (std::size_t i = 0; i < sizes.size(); ++i) {
-        const double x = logs.of_sizes[i] - mean_x;
-        const double y = logs.of_counts[i] - mean_y;
-        xx += x * x;
-        xy += x * y;
-        yy += y * y;
-    }
-    if (!(xx > 0))
+    if (std::adjacent_find(sizes.begin(), sizes.end(), std::not_equal_to<>()) == sizes.end())
         throw std::invalid_argument("growth is told by different sizes");
-    Growth found;
-    found.exponent = xy / xx;
-    const double left = std::fmax(yy - found.exponent * xy, 0);
+    const LineFit fit = line_fit(logs.of_sizes, logs.of_counts);
     const std::size_t freedom = sizes.size() - 2;
-    const double error = std::sqrt(left / static_cast<double>(freedom) / xx);
-    found.uncertainty = student(student_one_way, freedom) * error;
-    found.half_interval = student(student_both_ways, freedom) * error;
-    found.factor = exp2_of(mean_y - found.exponent * mean_x);
-    found.r_squared = yy > 0 ? 1 - left / yy : 1;
+    const double error = std::sqrt(fit.left / static_cast<double>(freedom) / fit.spread);
+    Growth found;
+    found.exponent = fit.slope;
+    found.uncertainty = student_one_way(freedom) * error;
+    found.half_interval = student_both_ways(freedom) * error;
+    found.factor = exp2_of(fit.at(0));
+    found.r_squared = fit.total > 0 ? 1 - fit.left / fit.total : 1;
     return found;
+}
+
+std::size_t first_to_fit(std::size_t points) {
+    constexpr std::size_t least = 4;
+    return points - std::min(points, std::max(least, (points + 1) / 2));
 }
 
 std::vector<double> local_exponents(std::span<const double> sizes, std::span<const double> counts) {

@@ -8,6 +8,15 @@
 
 namespace vera {
 
+/// To base 2.
+struct Logarithms {
+    std::vector<double> of_sizes;
+    std::vector<double> of_counts;
+};
+
+/// Of as many counts as sizes, all positive; otherwise throws std::invalid_argument.
+Logarithms logarithms(std::span<const double> sizes, std::span<const double> counts);
+
 /// Of counts over sizes: the power of the size that they grow with, by least squares of the
 /// logarithms, and how far it may be off, by Student's t.
 struct Growth {
@@ -24,6 +33,10 @@ constexpr std::size_t least_sizes_of_growth = 3;
 /// Of as many counts as sizes, 3 or more, all positive and no two sizes equal; otherwise throws
 /// std::invalid_argument. The same bits on every machine.
 Growth growth(std::span<const double> sizes, std::span<const double> counts);
+
+/// The first of so many points to which a power is fitted: the upper half of them, where what is
+/// constant matters least, but four where there are as many.
+std::size_t first_to_fit(std::size_t points);
 
 /// From each size to the next: the power that would lead from the one count to the other. A drift
 /// tells that the counts are no power of the size. Throws likewise.

@@ -3,6 +3,7 @@
 #include "vera/math/elementary.h"
 #include "vera/theory/experiment.h"
 #include "vera/theory/nested_trees.h"
+#include "vera/theory/ray_generations.h"
 #include "vera/theory/scattered_rectangles.h"
 
 #include <string>
@@ -15,13 +16,15 @@ constexpr int rays = 300;
 /// Nodes of so many rectangles have no trees. Few, so that nesting begins at small sizes.
 constexpr std::size_t few = 8;
 
-CountedSize
-counted_steps(std::size_t size, double parts, std::uint64_t seed, const CancelFlag* cancel) {
+using MadeRay = WholeRay (*)(std::mt19937_64& random);
+
+CountedSize counted_steps(
+    std::size_t size, double parts, MadeRay ray, std::uint64_t seed, const CancelFlag* cancel) {
     std::mt19937_64 random(seed);
     const NestedTrees trees(scattered_rectangles(size, parts, random), few, {}, cancel);
     StepCounts counts;
     for (int i = 0; i < rays; ++i)
-        trees.first_rectangle(scattered_ray(random), &counts);
+        trees.first_rectangle(ray(random), &counts);
     const auto n = static_cast<double>(size);
     return {
         n, static_cast<double>(counts.nodes + counts.points + counts.searches), power(n, 0.695)};
@@ -34,8 +37,12 @@ double places_of_each(double rectangles) {
     return (levels + 1) * (levels + 2) * (levels + 3) * (levels + 4) / 24;
 }
 
-Experiment of_steps() {
+/// Of rectangles with sides of up to so many parts of their mean distance.
+Experiment
+of_steps(const char* family, const char* input, double parts = 2, MadeRay ray = scattered_ray) {
     Experiment experiment;
+    experiment.family = family;
+    experiment.input = input;
     experiment.name = "prop1-steps";
     experiment.counted = "nodes, rectangles and searches of 300 rays";
     experiment.unit = "rectangles";
@@ -43,31 +50,23 @@ Experiment of_steps() {
     experiment.source = "VERA 3.3.1, proposition 1, without its polylog";
     experiment.first = 32;
     experiment.last = 4096;
-    experiment.last_in_tests = 1024;
+    // Rays of one generation come through few places, so that fewer rectangles leave much to
+    // chance.
+    experiment.last_in_tests = ray == scattered_ray ? 1024 : 2048;
     experiment.most = 65536;
     experiment.sizes_a_doubling = 1;
+    experiment.count = [parts,
+                        ray](std::size_t size, std::uint64_t seed, const CancelFlag* cancel) {
+        return counted_steps(size, parts, ray, seed, cancel);
+    };
     return experiment;
 }
 
 } // namespace
 
 std::vector<Experiment> nested_trees_experiments() {
-    Experiment meeting = of_steps();
-    meeting.family = "meeting";
-    meeting.input = "rectangles that rays meet, of sides of up to twice their mean distance";
-    meeting.count = [](std::size_t size, std::uint64_t seed, const CancelFlag* cancel) {
-        return counted_steps(size, 2, seed, cancel);
-    };
-    Experiment missing = of_steps();
-    missing.family = "missing";
-    missing.input = "rectangles without sides, which rays miss";
-    missing.count = [](std::size_t size, std::uint64_t seed, const CancelFlag* cancel) {
-        return counted_steps(size, 0, seed, cancel);
-    };
-    Experiment memory = of_steps();
+    Experiment memory = of_steps("scattered", "rectangles all over a cube");
     memory.name = "prop1-memory";
-    memory.family = "scattered";
-    memory.input = "rectangles all over a cube";
     memory.counted = "bytes of the nested trees";
     memory.bound = "n log^4 n";
     memory.source = "VERA 3.3.1, proposition 1, which says n polylog n";
@@ -77,7 +76,18 @@ std::vector<Experiment> nested_trees_experiments() {
         const auto n = static_cast<double>(size);
         return CountedSize{n, static_cast<double>(trees.bytes()), n * places_of_each(n)};
     };
-    return {meeting, missing, memory};
+    return {
+        of_steps(
+            "meeting", "rectangles that rays meet, of sides of up to twice their mean distance"),
+        of_steps("missing", "rectangles without sides, which rays miss", 0),
+        of_steps(
+            "viewer", "the rectangles of meeting, and rays of one viewer", 2, first_generation_ray),
+        of_steps(
+            "mirrored",
+            "the same, and rays of one viewer that a sphere mirrors",
+            2,
+            mirrored_generation_ray),
+        memory};
 }
 
 } // namespace vera

@@ -35,7 +35,7 @@ class ProfileMerge {
 public:
     /// All must outlive this.
     ProfileMerge(
-        std::span<const SweepSegments::Segment> segments, Upward upward, SweepCounts& counts)
+        std::span<const SweepSegments::Segment> segments, Upward upward, PlaneSweepCounts& counts)
         : segments_(segments)
         , predicates_(segments, counts)
         , sign_(upward == Upward::with_y ? 1 : -1) {}

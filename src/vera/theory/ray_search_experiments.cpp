@@ -2,6 +2,7 @@
 // Rectangles among rays: propositions 3 and 4.
 #include "vera/math/elementary.h"
 #include "vera/theory/experiment.h"
+#include "vera/theory/ray_generations.h"
 #include "vera/theory/ray_segments.h"
 #include "vera/theory/ray_trees.h"
 #include "vera/theory/whole_within.h"
@@ -44,15 +45,26 @@ std::vector<SlopedRay> rays_of_a_viewer(std::size_t count, std::mt19937_64& rand
     return made;
 }
 
-/// Where crossing rays cross; each meets a tenth of them or so.
-IsoRectangle any_rectangle(std::mt19937_64& random) {
+/// Anywhere within so far of the middle across the z axis, and along it.
+IsoRectangle any_rectangle(std::int32_t across, std::int32_t along, std::mt19937_64& random) {
     const auto side = [&] {
-        const std::int32_t a = whole_within(reach, random);
-        return std::minmax({a, whole_within(reach, random)});
+        const std::int32_t a = whole_within(across, random);
+        return std::minmax({a, whole_within(across, random)});
     };
     const auto x = side();
     const auto y = side();
-    return {whole_within(1'000'000, random), x.first, x.second, y.first, y.second};
+    return {whole_within(along, random), x.first, x.second, y.first, y.second};
+}
+
+/// Where crossing rays cross; each meets a tenth of them or so.
+IsoRectangle rectangle_at_crossings(std::mt19937_64& random) {
+    return any_rectangle(reach, 1'000'000, random);
+}
+
+/// In the cube of mirrored_generation().
+IsoRectangle rectangle_before_mirror(std::mt19937_64& random) {
+    constexpr std::int32_t along = 20'000;
+    return any_rectangle(fine_steps * along, along, random);
 }
 
 /// Looks at all that a query has to look at, and tells nothing.
@@ -69,9 +81,15 @@ struct StepsAlone {
 };
 
 using MadeRays = std::vector<SlopedRay> (*)(std::size_t count, std::mt19937_64& random);
+using MadeRectangle = IsoRectangle (*)(std::mt19937_64& random);
 
 /// The bound is m^exponent by so many logarithms of the levels.
-Experiment of_trees(MadeRays made_rays, TreeKind kind, double exponent, double logarithms) {
+Experiment of_trees(
+    MadeRays made_rays,
+    MadeRectangle made_rectangle,
+    TreeKind kind,
+    double exponent,
+    double logarithms) {
     Experiment experiment;
     experiment.name = kind == TreeKind::optimal ? "prop3-steps-optimal" : "prop3-steps";
     experiment.counted = "nodes and rays that 300 rectangles look at";
@@ -86,7 +104,7 @@ Experiment of_trees(MadeRays made_rays, TreeKind kind, double exponent, double l
         const RayTrees trees(made_rays(size, random), few, {}, cancel, kind);
         StepCounts counts;
         for (int i = 0; i < rectangles; ++i)
-            trees.visit(any_rectangle(random), counts, StepsAlone{counts});
+            trees.visit(made_rectangle(random), counts, StepsAlone{counts});
         const auto m = static_cast<double>(size);
         return CountedSize{
             m,
@@ -96,8 +114,12 @@ Experiment of_trees(MadeRays made_rays, TreeKind kind, double exponent, double l
     return experiment;
 }
 
-Experiment of_conjugation_trees(const char* family, const char* input, MadeRays made_rays) {
-    Experiment experiment = of_trees(made_rays, TreeKind::conjugation, 0.695, 1);
+Experiment of_conjugation_trees(
+    const char* family,
+    const char* input,
+    MadeRays made_rays,
+    MadeRectangle made_rectangle = rectangle_at_crossings) {
+    Experiment experiment = of_trees(made_rays, made_rectangle, TreeKind::conjugation, 0.695, 1);
     experiment.family = family;
     experiment.input = input;
     experiment.bound = "m^0.695 log m";
@@ -121,7 +143,7 @@ Experiment of_segments() {
 } // namespace
 
 std::vector<Experiment> ray_search_experiments() {
-    Experiment optimal = of_trees(crossing_rays, TreeKind::optimal, 0.5, 2);
+    Experiment optimal = of_trees(crossing_rays, rectangle_at_crossings, TreeKind::optimal, 0.5, 2);
     optimal.family = "crossing";
     optimal.input = "rays that all cross each other, in trees of today";
     optimal.bound = "m^0.5 log^2 m";
@@ -137,7 +159,7 @@ std::vector<Experiment> ray_search_experiments() {
         const RaySegments segments(crossing_rays(size, random), {}, cancel);
         StepCounts counts;
         for (int i = 0; i < rectangles; ++i)
-            segments.rays_met(any_rectangle(random), &counts);
+            segments.rays_met(rectangle_at_crossings(random), &counts);
         const auto m = static_cast<double>(size);
         return CountedSize{
             m, static_cast<double>(counts.nodes + counts.points), power(log2_of(m), 4)};
@@ -157,6 +179,11 @@ std::vector<Experiment> ray_search_experiments() {
     return {
         of_conjugation_trees("crossing", "rays that all cross each other", crossing_rays),
         of_conjugation_trees("viewer", "rays of one viewer", rays_of_a_viewer),
+        of_conjugation_trees(
+            "mirrored",
+            "rays of one viewer, mirrored by a sphere",
+            mirrored_generation,
+            rectangle_before_mirror),
         optimal,
         steps,
         memory};

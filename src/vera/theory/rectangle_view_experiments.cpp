@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is seen of rectangles one behind the other: by the union of what is covered, and beside it
 // by the plane sweep of the appendix, which meets what is hidden as well.
-#include "vera/math/elementary.h"
 #include "vera/theory/experiment.h"
 #include "vera/theory/overlaid_rectangles.h"
 #include "vera/theory/rectangle_view.h"
-#include "vera/visible/plane_sweep.h"
+#include "vera/theory/visible_surface_terms.h"
 
 #include <string>
 
@@ -19,26 +18,15 @@ CountedSize steps_of_view(const Rectangles& rectangles, const CancelFlag* cancel
     WindowCounts counts;
     const RectangleView view = rectangle_view(rectangles, &counts, {}, cancel);
     const auto n = static_cast<double>(rectangles.size());
-    const double log_n = log2_of(n);
-    return {
+    return counted_by_terms(
         n,
         static_cast<double>(counts.steps()),
-        (n + static_cast<double>(view.corners.size())) * log_n * log_n};
+        {n, static_cast<double>(view.corners.size())},
+        seen_terms());
 }
 
-/// Without the entries of sets that are moved, which balanced trees would not move.
-CountedSize steps_of_sweep(const Rectangles& rectangles, const CancelFlag* cancel) {
-    SweepCounts counts;
-    PlaneSweepSettings settings;
-    settings.counts = &counts;
-    plane_sweep(screen_scene(rectangles), settings, {}, cancel);
-    const std::uint64_t steps = counts.orientations + counts.comparisons + counts.queued
-        + counts.insertions + counts.depth_orders;
-    const auto edges = static_cast<double>(counts.segments);
-    return {
-        static_cast<double>(rectangles.size()),
-        static_cast<double>(steps),
-        (edges + static_cast<double>(counts.crossings)) * log2_of(edges)};
+CountedSize steps_of_swept(const Rectangles& rectangles, const CancelFlag* cancel) {
+    return steps_of_sweep(screen_scene(rectangles), rectangles.size(), cancel);
 }
 
 using CountSteps = CountedSize (*)(const Rectangles& rectangles, const CancelFlag* cancel);
@@ -80,6 +68,8 @@ Experiment view_experiment(const OverlaidFamily& family) {
     experiment.name = "visible-rectangles";
     experiment.counted = "steps to find what is seen, by the union of what is covered";
     experiment.bound = "(n + v) log^2 n";
+    experiment.variables = {"n", "v"};
+    experiment.terms = seen_terms();
     experiment.source = "Güting and Ottmann 1987";
     return experiment;
 }
@@ -87,10 +77,12 @@ Experiment view_experiment(const OverlaidFamily& family) {
 Experiment sweep_experiment(const OverlaidFamily& family) {
     const bool is_linear = std::string(family.name) == "scattered";
     Experiment experiment =
-        of_family(family, is_linear ? linear_sizes : quadratic_sizes, steps_of_sweep);
+        of_family(family, is_linear ? linear_sizes : quadratic_sizes, steps_of_swept);
     experiment.name = "rectangles-by-sweep";
     experiment.counted = "steps of the plane sweep";
     experiment.bound = "(n + k) log n";
+    experiment.variables = {"n", "k"};
+    experiment.terms = sweep_terms();
     experiment.source = "VERA appendix";
     return experiment;
 }

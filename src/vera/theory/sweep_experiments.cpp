@@ -4,10 +4,12 @@
 #include "vera/theory/experiment.h"
 #include "vera/theory/grouped_sweeps.h"
 #include "vera/theory/nested_sweeps.h"
+#include "vera/theory/ray_generations.h"
 #include "vera/theory/scattered_rectangles.h"
 #include "vera/theory/whole_within.h"
 
 #include <random>
+#include <string>
 
 namespace vera {
 
@@ -38,20 +40,33 @@ std::vector<SlopedRay> nearly_parallel_rays(std::size_t count, std::mt19937_64& 
     return rays_of_slopes(2, count, random);
 }
 
-/// All through one point before the rectangles.
-std::vector<SlopedRay> rays_of_a_viewer(std::size_t count, std::mt19937_64& random) {
-    std::vector<SlopedRay> made = rays_of_slopes(40, count, random);
-    for (SlopedRay& ray : made) {
-        ray.offset_x = reach * ray.slope_x;
-        ray.offset_y = reach * ray.slope_y;
-        ray.first_z = -reach;
-    }
-    return made;
-}
-
 using MadeRays = std::vector<SlopedRay> (*)(std::size_t count, std::mt19937_64& random);
+using MadeRectangles =
+    std::vector<IsoRectangle> (*)(std::size_t count, double parts, std::mt19937_64& random);
 
-Experiment of_rays(const char* name, const char* family, const char* input) {
+/// Rays, and rectangles of their cube.
+struct RayFamily {
+    const char* name;
+    const char* input;
+    MadeRays rays;
+    MadeRectangles rectangles;
+};
+
+const RayFamily any_family = {"any", "rays of any slope", any_rays, scattered_rectangles};
+const RayFamily parallel_family = {
+    "parallel", "rays that are nearly parallel", nearly_parallel_rays, scattered_rectangles};
+const RayFamily viewer_family = {
+    "viewer",
+    "rays of one viewer, which cross nowhere",
+    first_generation,
+    finely_scattered_rectangles};
+const RayFamily mirrored_family = {
+    "mirrored",
+    "rays of one viewer, mirrored by a sphere",
+    mirrored_generation,
+    finely_scattered_rectangles};
+
+Experiment of_rays(const char* name, const std::string& family, const std::string& input) {
     Experiment experiment;
     experiment.name = name;
     experiment.family = family;
@@ -62,26 +77,38 @@ Experiment of_rays(const char* name, const char* family, const char* input) {
     return experiment;
 }
 
-Experiment of_sweep(const char* family, const char* input, MadeRays made_rays) {
-    Experiment experiment = of_rays("space-sweep", family, input);
+/// (m + k) log^2 m + I, of m rays and as many rectangles, k crossings and I rays told.
+const std::vector<BoundTerm>& sweep_terms() {
+    static const auto square = [](double value) { return value * value; };
+    static const std::vector<BoundTerm> terms = {
+        {"m log^2 m", [](std::span<const double> mki) { return mki[0] * square(log2_of(mki[0])); }},
+        {"k log^2 m", [](std::span<const double> mki) { return mki[1] * square(log2_of(mki[0])); }},
+        {"I", [](std::span<const double> mki) { return mki[2]; }}};
+    return terms;
+}
+
+Experiment of_sweep(const RayFamily& family) {
+    Experiment experiment = of_rays("space-sweep", family.name, family.input);
     experiment.counted = "steps of a sweep through as many rectangles";
     experiment.bound = "(m + k) log^2 m + I";
+    experiment.variables = {"m", "k", "I"};
+    experiment.terms = sweep_terms();
     experiment.source = "VERA 3.3.2, the space sweep: k crossings, I rays told; m = n";
     experiment.first = 64;
     experiment.last = 2048;
     experiment.last_in_tests = 1024;
-    experiment.count = [made_rays](std::size_t size, std::uint64_t seed, const CancelFlag* cancel) {
+    experiment.count = [family](std::size_t size, std::uint64_t seed, const CancelFlag* cancel) {
         std::mt19937_64 random(seed);
-        const std::vector<IsoRectangle> rectangles = scattered_rectangles(size, 2, random);
+        const std::vector<IsoRectangle> rectangles = family.rectangles(size, 2, random);
         SweepCounts counts;
-        sweep_first_rectangles(rectangles, made_rays(size, random), &counts, {}, cancel);
-        const auto m = static_cast<double>(size);
-        const auto crossings = static_cast<double>(counts.x_swaps + counts.y_swaps);
-        const double logarithm = log2_of(m);
-        return CountedSize{
-            m,
+        sweep_first_rectangles(rectangles, family.rays(size, random), &counts, {}, cancel);
+        return counted_by_terms(
+            static_cast<double>(size),
             static_cast<double>(counts.steps()),
-            (2 * m + crossings) * logarithm * logarithm + static_cast<double>(counts.reports)};
+            {static_cast<double>(size),
+             static_cast<double>(counts.x_swaps + counts.y_swaps),
+             static_cast<double>(counts.reports)},
+            sweep_terms());
     };
     return experiment;
 }
@@ -112,8 +139,22 @@ double events_of_nested(
     return static_cast<double>(counts.sweeps.events() + counts.trees.nodes);
 }
 
-Experiment of_groups(const char* family, const char* input, EventsOfSweeps events) {
-    Experiment experiment = of_rays("prop5-events", family, input);
+/// Proposition 5 in one of its forms.
+struct SweepForm {
+    const char* name;
+    const char* where;
+    EventsOfSweeps events;
+};
+
+const SweepForm groups_form = {"groups", ", in groups of one sweep each", events_of_groups};
+const SweepForm nested_form = {
+    "nested", ", in sweeps at the ends of two nested trees", events_of_nested};
+
+Experiment of_groups(const SweepForm& form, const RayFamily& family) {
+    Experiment experiment = of_rays(
+        "prop5-events",
+        std::string(form.name) + (family.rays == any_rays ? "" : std::string("-") + family.name),
+        std::string(family.input) + form.where);
     experiment.counted = "crossings, rectangles asked, nodes and rays told, at the stated level";
     experiment.bound = "m^1.41";
     experiment.source = "VERA 3.3.2, proposition 5: m^0.820 n^0.590, but for logarithms";
@@ -121,11 +162,13 @@ Experiment of_groups(const char* family, const char* input, EventsOfSweeps event
     experiment.first = 512;
     experiment.last = 8192;
     experiment.last_in_tests = 8192;
-    experiment.count = [events](std::size_t size, std::uint64_t seed, const CancelFlag* cancel) {
+    experiment.count = [events = form.events,
+                        family](std::size_t size, std::uint64_t seed, const CancelFlag* cancel) {
         std::mt19937_64 random(seed);
-        const std::vector<IsoRectangle> rectangles = scattered_rectangles(size, 2, random);
+        const std::vector<IsoRectangle> rectangles = family.rectangles(size, 2, random);
         const auto m = static_cast<double>(size);
-        return CountedSize{m, events(rectangles, any_rays(size, random), cancel), power(m, 1.41)};
+        return CountedSize{
+            m, events(rectangles, family.rays(size, random), cancel), power(m, 1.41)};
     };
     return experiment;
 }
@@ -134,14 +177,14 @@ Experiment of_groups(const char* family, const char* input, EventsOfSweeps event
 
 std::vector<Experiment> sweep_experiments() {
     return {
-        of_sweep("any", "rays of any slope", any_rays),
-        of_sweep("parallel", "rays that are nearly parallel", nearly_parallel_rays),
-        of_sweep("viewer", "rays of one viewer, which cross nowhere", rays_of_a_viewer),
-        of_groups("groups", "rays of any slope, in groups of one sweep each", events_of_groups),
-        of_groups(
-            "nested",
-            "rays of any slope, in sweeps at the ends of two nested trees",
-            events_of_nested)};
+        of_sweep(any_family),
+        of_sweep(parallel_family),
+        of_sweep(viewer_family),
+        of_sweep(mirrored_family),
+        of_groups(groups_form, any_family),
+        of_groups(groups_form, mirrored_family),
+        of_groups(nested_form, any_family),
+        of_groups(nested_form, mirrored_family)};
 }
 
 } // namespace vera

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is seen of terrains whose edges cross far more often than anything of them is seen.
-#include "vera/math/elementary.h"
 #include "vera/theory/experiment.h"
 #include "vera/theory/terrain_view.h"
+#include "vera/theory/visible_surface_terms.h"
 
 #include <cmath>
 #include <random>
+#include <span>
+#include <vector>
 
 namespace vera {
 
@@ -65,6 +67,8 @@ Experiment of_hills(const char* family, const char* input, MakeScene make) {
     experiment.counted = "steps to find what is seen, by profiles";
     experiment.unit = "triangles";
     experiment.bound = "(n + v) log^2 n";
+    experiment.variables = {"n", "v"};
+    experiment.terms = seen_terms();
     experiment.source = "Katz, Overmars and Sharir 1992";
     experiment.first = 128;
     experiment.last = 65536;
@@ -75,11 +79,11 @@ Experiment of_hills(const char* family, const char* input, MakeScene make) {
         TerrainCounts counts;
         const VisiblePieces pieces = terrain_pieces(scene, Upward::with_y, &counts, {}, cancel);
         const auto triangles = static_cast<double>(scene.triangles.size());
-        const double log_n = log2_of(triangles);
-        return CountedSize{
+        return counted_by_terms(
             triangles,
             static_cast<double>(counts.steps()),
-            (triangles + static_cast<double>(pieces.points.size())) * log_n * log_n};
+            {triangles, static_cast<double>(pieces.points.size())},
+            seen_terms());
     };
     return experiment;
 }

@@ -30,7 +30,7 @@ namespace vera {
 struct TerrainCounts {
     std::uint64_t ground = 0;    ///< triangles compared on the ground: see ground_order()
     std::uint64_t stretches = 0; ///< of x, looked at to compare profiles
-    SweepCounts predicates;      ///< orientations and comparisons, for these
+    PlaneSweepCounts predicates; ///< orientations and comparisons, for these
 
     std::uint64_t steps() const {
         return ground + stretches + predicates.orientations + predicates.comparisons;

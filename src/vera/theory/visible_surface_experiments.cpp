@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is visible of triangles: the appendix's sweep, and Franklin's cells beside it.
-#include "vera/math/elementary.h"
 #include "vera/theory/experiment.h"
-#include "vera/visible/plane_sweep.h"
+#include "vera/theory/visible_surface_terms.h"
+#include "vera/visible/cell_raster.h"
 
 #include <algorithm>
 #include <array>
@@ -23,12 +23,11 @@ std::int32_t any_below(std::int32_t end, std::mt19937_64& random) {
     return static_cast<std::int32_t>(random() % static_cast<std::uint64_t>(end));
 }
 
-/// Small triangles, each at a depth of its own, as many one behind the other whatever their number
-/// is: so that edges have as many crossings each.
-ScreenScene scattered_triangles(std::size_t count, std::uint64_t seed) {
+/// Each at a depth of its own; so large that, of so many, about 5 lie one behind the other.
+ScreenScene triangles_of_size(std::size_t count, std::size_t five_deep, std::uint64_t seed) {
     std::mt19937_64 random(seed);
     const auto size =
-        static_cast<std::int32_t>(screen_size * std::sqrt(5.0 / static_cast<double>(count)));
+        static_cast<std::int32_t>(screen_size * std::sqrt(5.0 / static_cast<double>(five_deep)));
     const auto layers = static_cast<std::int64_t>(count + 1);
     const auto coordinate = [&](std::int32_t middle) {
         return std::clamp(middle + any_below(size, random) - size / 2, 0, screen_size);
@@ -47,6 +46,18 @@ ScreenScene scattered_triangles(std::size_t count, std::uint64_t seed) {
         add_triangle(scene, vertices, static_cast<std::uint32_t>(i));
     }
     return scene;
+}
+
+/// As many one behind the other whatever their number is: so that edges have as many crossings
+/// each.
+ScreenScene scattered_triangles(std::size_t count, std::uint64_t seed) {
+    return triangles_of_size(count, count, seed);
+}
+
+/// The more there are, the more lie one behind the other, and the more crossings an edge has.
+ScreenScene deep_triangles(std::size_t count, std::uint64_t seed) {
+    constexpr std::size_t five_deep = 16;
+    return triangles_of_size(count, five_deep, seed);
 }
 
 void add_sliver(
@@ -89,19 +100,8 @@ ScreenScene hidden_grate(std::size_t count) {
     return scene;
 }
 
-/// Without the entries of sets that are moved, which balanced trees would not move.
-CountedSize steps_of_sweep(const ScreenScene& scene, const CancelFlag* cancel) {
-    SweepCounts counts;
-    PlaneSweepSettings settings;
-    settings.counts = &counts;
-    plane_sweep(scene, settings, {}, cancel);
-    const std::uint64_t steps = counts.orientations + counts.comparisons + counts.queued
-        + counts.insertions + counts.depth_orders;
-    const auto edges = static_cast<double>(counts.segments);
-    return {
-        static_cast<double>(scene.triangles.size()),
-        static_cast<double>(steps),
-        (edges + static_cast<double>(counts.crossings)) * log2_of(edges)};
+CountedSize steps_of_scene_sweep(const ScreenScene& scene, const CancelFlag* cancel) {
+    return steps_of_sweep(scene, scene.triangles.size(), cancel);
 }
 
 CountedSize steps_of_cells(const ScreenScene& scene, const CancelFlag* cancel) {
@@ -130,6 +130,8 @@ const SceneFamily scattered_family = {
     16384,
     1'048'576,
     scattered_triangles};
+const SceneFamily deep_family = {
+    "deep", "triangles anywhere, of one size", 2896, 8192, deep_triangles};
 const SceneFamily grate_family = {
     "grate",
     "two bundles of slivers that cross, all seen",
@@ -160,10 +162,12 @@ Experiment of_scenes(const SceneFamily& family, CountSteps count_steps) {
 }
 
 Experiment sweep_experiment(const SceneFamily& family) {
-    Experiment experiment = of_scenes(family, steps_of_sweep);
+    Experiment experiment = of_scenes(family, steps_of_scene_sweep);
     experiment.name = "visible-sweep";
     experiment.counted = "steps of the plane sweep";
     experiment.bound = "(n + k) log n";
+    experiment.variables = {"n", "k"};
+    experiment.terms = sweep_terms();
     experiment.source = "VERA appendix";
     return experiment;
 }
@@ -186,8 +190,13 @@ Experiment cells_experiment(const SceneFamily& family) {
 std::vector<Experiment> visible_surface_experiments() {
     Experiment cells_of_grate = cells_experiment(grate_family);
     cells_of_grate.keeps_bound = false; // n^2 pieces are seen
+    Experiment deep = sweep_experiment(deep_family);
+    // Of fewer, the logarithm of how many lie one behind the other grows faster than that of n.
+    deep.first = 512;
+    deep.last_in_tests = 1448;
     return {
         sweep_experiment(scattered_family),
+        deep,
         sweep_experiment(grate_family),
         sweep_experiment(hidden_grate_family),
         cells_experiment(scattered_family),

@@ -52,7 +52,7 @@ public:
     Sweep(
         std::span<const SweepSegments::Segment> segments,
         std::size_t expected,
-        SweepCounts& counts);
+        PlaneSweepCounts& counts);
 
     ConnectionGraph run(const Progress& progress, const CancelFlag* cancel);
 
@@ -87,7 +87,7 @@ private:
     }
 
     std::span<const SweepSegments::Segment> segments_;
-    SweepCounts& counts_;
+    PlaneSweepCounts& counts_;
     SweepPredicates predicates_;
     Status status_;
     std::priority_queue<SweepPoint, std::vector<SweepPoint>, LaterPoint> crossings_;
@@ -107,7 +107,9 @@ private:
 };
 
 Sweep::Sweep(
-    std::span<const SweepSegments::Segment> segments, std::size_t expected, SweepCounts& counts)
+    std::span<const SweepSegments::Segment> segments,
+    std::size_t expected,
+    PlaneSweepCounts& counts)
     : segments_(segments)
     , counts_(counts)
     , predicates_(segments, counts)
@@ -284,7 +286,7 @@ ConnectionGraph Sweep::run(const Progress& progress, const CancelFlag* cancel) {
 ConnectionGraph connection_graph(
     std::span<const SweepSegments::Segment> segments,
     std::size_t expected,
-    SweepCounts& counts,
+    PlaneSweepCounts& counts,
     const Progress& progress,
     const CancelFlag* cancel) {
     return Sweep(segments, expected, counts).run(progress, cancel);

@@ -61,7 +61,7 @@ struct ConnectionGraph {
 ConnectionGraph connection_graph(
     std::span<const SweepSegments::Segment> segments,
     std::size_t expected,
-    SweepCounts& counts,
+    PlaneSweepCounts& counts,
     const Progress& progress = {},
     const CancelFlag* cancel = nullptr);
 

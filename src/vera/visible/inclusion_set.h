@@ -21,7 +21,7 @@ class InclusionSet {
 public:
     /// All must outlive this.
     InclusionSet(
-        const ScreenScene& scene, std::span<const NearnessSlope> slopes, SweepCounts& counts)
+        const ScreenScene& scene, std::span<const NearnessSlope> slopes, PlaneSweepCounts& counts)
         : scene_(scene)
         , slopes_(slopes)
         , counts_(counts) {}
@@ -51,7 +51,7 @@ private:
 
     const ScreenScene& scene_;
     std::span<const NearnessSlope> slopes_;
-    SweepCounts& counts_;
+    PlaneSweepCounts& counts_;
     std::vector<std::uint32_t> triangles_;
     std::vector<Change> changes_;
 };

@@ -54,7 +54,7 @@ SweptScene swept_scene(const ScreenScene& scene, const CancelFlag* cancel) {
 /// Tells what is seen beside each edge of the graph.
 class PartFinder {
 public:
-    PartFinder(const SweptScene& swept, const ConnectionGraph& graph, SweepCounts& counts)
+    PartFinder(const SweptScene& swept, const ConnectionGraph& graph, PlaneSweepCounts& counts)
         : swept_(swept)
         , graph_(graph)
         , counts_(counts)
@@ -91,7 +91,7 @@ private:
 
     const SweptScene& swept_;
     const ConnectionGraph& graph_;
-    SweepCounts& counts_;
+    PlaneSweepCounts& counts_;
     SeenBeside seen_;
     std::vector<Beside> beside_; ///< as they were added to seen_
 };
@@ -178,7 +178,7 @@ joined(const SweptScene& swept, const ConnectionGraph& graph, std::vector<Visibl
             return a.edge < b.edge;
         return a.from < a.to ? a.from < b.from : a.from > b.from;
     });
-    SweepCounts uncounted;
+    PlaneSweepCounts uncounted;
     const SweepPredicates predicates(swept.segments.segments, uncounted);
     VisiblePieces result;
     constexpr std::uint32_t unnumbered = ~std::uint32_t{0};
@@ -214,7 +214,7 @@ joined(const SweptScene& swept, const ConnectionGraph& graph, std::vector<Visibl
 /// How many pairs of segments cross: all are asked, or as many as suffice, at random.
 double
 crossings_of(std::span<const SweepSegments::Segment> segments, const CancelFlag* cancel = nullptr) {
-    SweepCounts uncounted;
+    PlaneSweepCounts uncounted;
     const SweepPredicates predicates(segments, uncounted);
     const auto do_cross = [&](std::uint64_t i, std::uint64_t j) {
         const auto a = static_cast<std::uint32_t>(i);
@@ -283,7 +283,7 @@ VisiblePieces plane_sweep(
     const SweptScene swept = swept_scene(scene, cancel);
     stop_if_raised(cancel);
     const SweepForecast forecast = checked_forecast(swept.segments, settings.most_bytes, cancel);
-    SweepCounts counts;
+    PlaneSweepCounts counts;
     constexpr double part_of_graph = 0.5; // of the time
     ConnectionGraph graph = connection_graph(
         swept.segments.segments,

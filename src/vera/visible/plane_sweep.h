@@ -14,7 +14,7 @@ namespace vera {
 struct PlaneSweepSettings {
     /// Bytes of memory that the sweep may take; without, what available_memory() tells.
     std::optional<std::uint64_t> most_bytes;
-    SweepCounts* counts = nullptr; ///< are filled in
+    PlaneSweepCounts* counts = nullptr; ///< are filled in
 };
 
 /// What plane_sweep() will be about.

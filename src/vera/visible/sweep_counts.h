@@ -6,7 +6,7 @@
 namespace vera {
 
 /// The steps of a plane sweep, which are the same on every machine.
-struct SweepCounts {
+struct PlaneSweepCounts {
     std::uint64_t segments = 0;
     std::uint64_t corners = 0;            ///< points at which segments begin or end
     std::uint64_t crossings = 0;          ///< other points at which segments meet
@@ -25,6 +25,11 @@ struct SweepCounts {
     std::uint64_t looked_at = 0;  ///< edges that no triangle hides at first sight
     std::uint64_t candidates = 0; ///< triangles above and below these, summed up: as moved
     std::uint64_t visible_edges = 0;
+
+    /// Of the bound: without entries of sets that are moved.
+    std::uint64_t steps() const {
+        return orientations + comparisons + queued + insertions + depth_orders;
+    }
 };
 
 } // namespace vera

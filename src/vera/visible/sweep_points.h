@@ -31,7 +31,7 @@ SweepPoint at_end(ScreenPoint point);
 class SweepPredicates {
 public:
     /// Both must outlive this.
-    SweepPredicates(std::span<const SweepSegments::Segment> segments, SweepCounts& counts)
+    SweepPredicates(std::span<const SweepSegments::Segment> segments, PlaneSweepCounts& counts)
         : segments_(segments)
         , counts_(counts) {}
 
@@ -56,7 +56,7 @@ private:
     SegmentPlace place(const SweepPoint& point) const;
 
     std::span<const SweepSegments::Segment> segments_;
-    SweepCounts& counts_;
+    PlaneSweepCounts& counts_;
 };
 
 } // namespace vera
