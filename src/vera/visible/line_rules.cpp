@@ -167,6 +167,13 @@ std::optional<LineClass> LineRules::class_of(const VisiblePiece& piece) const {
         : LineClass::intersection;
 }
 
+std::optional<LineClass>
+LineRules::class_of_meeting(std::uint32_t face, std::uint32_t other_face) const {
+    if (are_smooth(face, other_face))
+        return std::nullopt;
+    return LineClass::intersection;
+}
+
 /// Positive where the triangle, of which it is a side, lies to the left of the edge.
 std::int64_t LineRules::side_of(std::uint32_t edge, std::uint32_t triangle) const {
     const auto& [begin, end] = edges_.edges[edge];

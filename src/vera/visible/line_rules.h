@@ -33,6 +33,9 @@ public:
     /// or one goes on smoothly.
     std::optional<LineClass> class_of(const VisiblePiece& piece) const;
 
+    /// Of a line along which two faces meet that are seen on its sides.
+    std::optional<LineClass> class_of_meeting(std::uint32_t face, std::uint32_t other_face) const;
+
     /// Whether the piece is where a facet of a curved surface covers one that has a corner in
     /// common with it: near its silhouette some do.
     bool is_between_neighbours(const VisiblePiece& piece) const;

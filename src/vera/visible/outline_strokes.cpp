@@ -34,6 +34,54 @@ struct LineParts {
     std::vector<RationalPoint> points;
 };
 
+/// A straight way that joins others round what is seen of a face.
+struct JoinedSide {
+    std::array<std::uint32_t, 2> ends = {}; ///< the smaller one first
+    std::uint32_t face = 0;
+
+    friend auto operator<=>(const JoinedSide&, const JoinedSide&) = default;
+};
+
+std::vector<JoinedSide> joined_sides(const VisibleMap& map) {
+    std::vector<JoinedSide> sides;
+    for (const std::size_t place : map.joined_sides) {
+        const auto after = std::upper_bound(
+            map.rings.begin(),
+            map.rings.end(),
+            place,
+            [](std::size_t at, const VisibleMap::Ring& ring) { return at < ring.first; });
+        const VisibleMap::Ring& ring = *(after - 1);
+        const std::size_t next = place + 1 == ring.first + ring.count ? ring.first : place + 1;
+        const auto [smaller, larger] =
+            std::minmax(map.ring_vertices[place], map.ring_vertices[next]);
+        sides.push_back({{smaller, larger}, ring.source});
+    }
+    std::sort(sides.begin(), sides.end());
+    return sides;
+}
+
+/// Where two faces that pass through each other do so within a step of an edge, no piece parts
+/// them: the ways round what is seen of both are joined there by the same straight one.
+void add_joined_parts(
+    const StrokeSources& sources, const LineRules& rules, std::vector<LinePart>& parts) {
+    const std::vector<JoinedSide> sides = joined_sides(sources.map);
+    for (std::size_t i = 1; i < sides.size(); ++i) {
+        const JoinedSide& one = sides[i - 1];
+        const JoinedSide& other = sides[i];
+        if (one.ends != other.ends || one.face == other.face)
+            continue;
+        const std::optional<LineClass> line_class = rules.class_of_meeting(one.face, other.face);
+        if (!line_class)
+            continue;
+        LinePart& part = parts.emplace_back();
+        part.ends = one.ends;
+        part.step = step(
+            sources.pieces.points[one.ends[0]].whole, sources.pieces.points[one.ends[1]].whole);
+        part.line_class = *line_class;
+        part.faces = {one.face, other.face};
+    }
+}
+
 std::vector<LinePart>
 visible_parts(const StrokeSources& sources, const LineRules& rules, const CancelFlag* cancel) {
     const std::vector<VisiblePiece>& pieces = sources.pieces.pieces;
@@ -61,6 +109,7 @@ visible_parts(const StrokeSources& sources, const LineRules& rules, const Cancel
         part.faces = {face_of(pieces[i].left), face_of(pieces[i].right)};
         part.is_between_neighbours = rules.is_between_neighbours(pieces[i]);
     }
+    add_joined_parts(sources, rules, parts);
     return parts;
 }
 
