@@ -49,17 +49,20 @@ void expect_like_brute_force(
 TEST(PrimitiveQueryIndex, AgreesWithBruteForceOnEveryBit) {
     std::uint64_t swept = 0;
     std::uint64_t apart = 0;
-    for (std::uint64_t seed = 0; seed < 24; ++seed) {
+    for (std::uint64_t seed = 0; seed < 30; ++seed) {
         testing::RandomSceneSettings settings;
         settings.items = 1 + 2 * seed;
         settings.glass = seed % 2 == 0;
         const Scene scene = testing::random_scene(seed, settings);
         PrimitiveQuerySettings query_settings;
-        if (seed % 4 == 3)
+        query_settings.queries = std::array{
+            RayQueries::automatic,
+            RayQueries::sweep,
+            RayQueries::groups,
+            RayQueries::nested,
+            RayQueries::trees}[seed % 5];
+        if (seed % 6 == 5)
             query_settings.level = 3;
-        else
-            query_settings.queries =
-                std::array{RayQueries::automatic, RayQueries::sweep, RayQueries::groups}[seed % 4];
         const PrimitiveQueryIndex index(scene, query_settings);
         expect_like_brute_force(scene, index, some_rays(seed), "seed " + std::to_string(seed));
         if (HasFatalFailure())
