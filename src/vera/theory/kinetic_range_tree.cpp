@@ -157,7 +157,7 @@ void KineticRangeTree::add(std::span<const std::uint32_t> rays) {
 void KineticRangeTree::remove(std::uint32_t ray) {
     const std::uint32_t place = x_.place(ray);
     if (is_added_[ray] != 0) {
-        for_each_above(place, [&](Node& node) { node.by_y.erase(ray); });
+        for_each_above(place, [&](Node& node) { node.by_y.erase(node.by_y.find(ray)); });
         counts_.moves += levels_.size() - 1;
         is_added_[ray] = 0;
     }
