@@ -146,6 +146,11 @@ Compared compare(const Scene& scene, const std::vector<QueryRay>& view_rays, boo
             compared.met += found ? 1 : 0;
         }
         compared.rays += asked;
+        // From some hundred boxes on, they leave out most faces.
+        if (whole.boxes.size() >= 100) {
+            const std::size_t all_faces = 6 * whole.boxes.size() * asked;
+            EXPECT_LT(counts.nodes + counts.points, all_faces / 2) << kind.name;
+        }
         if (!notes || asked == 0)
             continue;
         const auto of_ray = [&](std::uint64_t steps) {
@@ -167,8 +172,8 @@ TEST_P(BoxesOf, AreMetFirstAsLookingAtEachTells) {
     const Scene scene = read_scene(std::string(VERA_SOURCE_DIR "/scenes/") + GetParam()).scene;
     ASSERT_TRUE(scene.camera);
     const ViewRays view(*scene.camera);
-    constexpr int width = 32;
-    constexpr int height = 24;
+    constexpr int width = 28;
+    constexpr int height = 21;
     std::vector<QueryRay> rays;
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
@@ -186,7 +191,12 @@ INSTANTIATE_TEST_SUITE_P(
     Examples,
     BoxesOf,
     ::testing::Values(
-        "still_life.vera", "glass.vera", "mirror_room.vera", "chess.vera", "gambit.vera"),
+        "still_life.vera",
+        "glass.vera",
+        "mirror_room.vera",
+        "chess.vera",
+        "gambit.vera",
+        "jewels.vera"),
     [](const auto& example) {
         const std::string name = example.param;
         return name.substr(0, name.find('.'));

@@ -289,7 +289,7 @@ NestedSweepCounts PrimitiveQueryIndex::ask(
         break;
     case RayQueries::nested:
         nested_sweeps(
-            stated,
+            std::min(stated, largest_useful_level(count)),
             usual_parts_level(count),
             rectangles,
             swept,
