@@ -124,9 +124,11 @@ sampled_level(std::span<const IsoRectangle> rectangles, std::span<const SlopedRa
     first_z = std::max(first_z, lowest->z);
     if (first_z >= highest->z)
         return 0;
-    // Steps of a crossing, and of a rectangle in a group: their ratio decides.
+    // Steps of a crossing, of a rectangle in a group, and of what it takes to divide a ray's points
+    // once more: their ratios decide.
     constexpr double steps_of_crossing = 30;
     constexpr double steps_of_rectangle = 30;
+    constexpr double steps_of_division = 15;
     // On scattered rays a line leaves so many of 2^i nodes undecided: 2^(i growth).
     constexpr double growth = 0.55;
     const auto m = static_cast<double>(rays.size());
@@ -134,7 +136,8 @@ sampled_level(std::span<const IsoRectangle> rectangles, std::span<const SlopedRa
     const auto steps = [&](std::size_t level) {
         const auto i = static_cast<double>(level);
         return steps_of_crossing * crossings * std::exp2(-i)
-            + steps_of_rectangle * static_cast<double>(rectangles.size()) * std::exp2(growth * i);
+            + steps_of_rectangle * static_cast<double>(rectangles.size()) * std::exp2(growth * i)
+            + steps_of_division * m * i;
     };
     std::size_t best = 0;
     for (std::size_t level = 1; level <= largest_level(rays.size()); ++level)

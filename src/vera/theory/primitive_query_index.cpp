@@ -12,6 +12,7 @@
 #include "vera/theory/ray_parts.h"
 #include "vera/theory/tree_queries.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <limits>
@@ -38,6 +39,16 @@ std::size_t largest_useful_level(std::size_t rays) {
     while (rays >> (level + KineticRangeTree::leaf_bits + 1) != 0)
         ++level;
     return level;
+}
+
+/// The zs at which there are any, ascending.
+std::vector<std::int32_t> planes_of(std::span<const IsoRectangle> rectangles) {
+    std::vector<std::int32_t> planes;
+    planes.reserve(rectangles.size());
+    for (const IsoRectangle& rectangle : rectangles)
+        planes.push_back(rectangle.z);
+    std::sort(planes.begin(), planes.end());
+    return planes;
 }
 
 } // namespace
@@ -232,22 +243,29 @@ void PrimitiveQueryIndex::sweep_along(
     const Test& test,
     GenerationCounts& generation,
     const Progress& progress) const {
+    std::vector<IsoRectangle> rectangles;
+    rectangles.reserve(boxes_.size());
+    for (const StepBox& box : boxes_)
+        rectangles.push_back(grid_.entry(box, direction));
+    const std::vector<std::int32_t> planes = planes_of(rectangles);
     std::vector<SlopedRay> rays;
     std::vector<std::int32_t> last_z;
     std::vector<std::uint32_t> numbers;
     for (std::uint32_t ray = 0; ray < swept.size(); ++ray) {
         if (swept[ray].end == ended)
             continue;
-        if (const auto sloped = grid_.sloped_ray(swept[ray].ray, direction)) {
-            rays.push_back(*sloped);
-            last_z.push_back(grid_.last_step(swept[ray].ray, swept[ray].end, direction));
-            numbers.push_back(ray);
-        }
+        const auto sloped = grid_.sloped_ray(swept[ray].ray, direction);
+        if (!sloped)
+            continue;
+        const std::int32_t last = grid_.last_step(swept[ray].ray, swept[ray].end, direction);
+        // What another sweep has ended comes to no plane here.
+        const auto first = std::lower_bound(planes.begin(), planes.end(), sloped->first_z);
+        if (first == planes.end() || *first > last)
+            continue;
+        rays.push_back(*sloped);
+        last_z.push_back(last);
+        numbers.push_back(ray);
     }
-    std::vector<IsoRectangle> rectangles;
-    rectangles.reserve(boxes_.size());
-    for (const StepBox& box : boxes_)
-        rectangles.push_back(grid_.entry(box, direction));
     generation.swept += rays.size();
     generation.pairs += rays.size() * (rays.size() - (rays.empty() ? 0 : 1)) / 2;
     const Meeting meeting = [&](std::uint32_t rectangle, std::uint32_t i) {
