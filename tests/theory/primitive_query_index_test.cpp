@@ -8,7 +8,9 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "accel/index_answers.h"
@@ -148,6 +150,30 @@ TEST(PrimitiveQueryIndex, CountsNoCrossingsOfRaysFromOnePointOrToOne) {
         EXPECT_GT(generation.pairs, 300'000U);
         EXPECT_EQ(generation.sweeps.x_swaps + generation.sweeps.y_swaps, 0U);
         EXPECT_GT(generation.sweeps.reports, 100U);
+    }
+}
+
+TEST(PrimitiveQueryIndex, RefusesWhatMemoryDoesNotHoldWithTheFigures) {
+    const Scene scene = testing::random_scene(4, {});
+    QueryRay query;
+    query.ray.origin = {0, 0, 9};
+    query.ray.direction = {0.1, 0.2, -1};
+    const std::vector<QueryRay> rays(300'000, query);
+    std::vector<Hit> hits(rays.size());
+    for (const auto& [queries, what] :
+         {std::pair{RayQueries::sweep, "a sweep through "},
+          std::pair{RayQueries::nested, "nested sweeps of 300000 rays takes about "},
+          std::pair{RayQueries::trees, "nesting trees of 300000 rays among "}}) {
+        const PrimitiveQueryIndex index(scene, {.queries = queries});
+        const MemoryLimit little(1);
+        QueryCounts counts;
+        try {
+            index.nearest_hits(rays, hits, counts);
+            FAIL() << what;
+        } catch (const std::runtime_error& error) {
+            EXPECT_THAT(error.what(), ::testing::StartsWith(what));
+            EXPECT_THAT(error.what(), ::testing::HasSubstr("are available: "));
+        }
     }
 }
 
