@@ -26,8 +26,9 @@ nlohmann::ordered_json generations_json(std::span<const GenerationCounts> genera
              {"pairs", generation.pairs},
              {"crossings", crossings(generation)},
              {"rectangles", generation.sweeps.rectangles},
+             {"nodes", generation.trees.nodes},
              {"reports", generation.sweeps.reports},
-             {"steps", generation.sweeps.steps()},
+             {"steps", generation.steps()},
              {"tests", generation.tests}});
     return list;
 }

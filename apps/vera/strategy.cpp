@@ -124,9 +124,10 @@ void add_strategy_option(CLI::App& command, StrategyRequest& request) {
             "--queries",
             request.queries,
             "of primitive-query: sweep, one space sweep of all rays; groups, sweeps of rays that "
-            "are near to one another; auto, as their crossings tell [auto]")
-        ->type_name("auto|sweep|groups")
-        ->check(CLI::IsMember({"auto", "sweep", "groups"}).description(""));
+            "are near to one another; nested, these at the ends of nested trees; trees, nested "
+            "trees alone; auto, sweep or groups as their crossings tell [auto]")
+        ->type_name("auto|sweep|groups|nested|trees")
+        ->check(CLI::IsMember({"auto", "sweep", "groups", "nested", "trees"}).description(""));
     command
         .add_option(
             "--generation-size",
@@ -178,10 +179,13 @@ std::size_t generation_size(const StrategyRequest& request) {
 std::unique_ptr<PrimitiveQueryIndex> primitive_query_index(
     const StrategyRequest& request, const Scene& scene, const CancelFlag& cancel) {
     PrimitiveQuerySettings settings;
-    if (request.queries == "sweep")
-        settings.queries = RayQueries::sweep;
-    if (request.queries == "groups")
-        settings.queries = RayQueries::groups;
+    for (const auto& [name, queries] :
+         {std::pair{"sweep", RayQueries::sweep},
+          std::pair{"groups", RayQueries::groups},
+          std::pair{"nested", RayQueries::nested},
+          std::pair{"trees", RayQueries::trees}})
+        if (request.queries == name)
+            settings.queries = queries;
     settings.cancel = &cancel;
     return std::make_unique<PrimitiveQueryIndex>(scene, std::move(settings));
 }

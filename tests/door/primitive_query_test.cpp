@@ -50,10 +50,15 @@ TEST_P(PrimitiveQueryOf, GivesTheSamePictureAsRaysToTheByte) {
     const std::string scene = std::string(VERA_SOURCE_DIR "/scenes/") + GetParam();
     for (const char* antialias : {"on", "off"}) {
         const std::string options = "-c " + scene + ".ctl --raster 32x24 --antialias " + antialias;
-        EXPECT_TRUE(
-            picture(folder, scene + ".vera", options + " --strategy primitive-query")
-            == picture(folder, scene + ".vera", options))
-            << antialias;
+        const std::string expected = picture(folder, scene + ".vera", options);
+        for (const char* queries : {"auto", "trees"})
+            EXPECT_TRUE(
+                picture(
+                    folder,
+                    scene + ".vera",
+                    options + " --strategy primitive-query --queries " + queries)
+                == expected)
+                << antialias << ", " << queries;
     }
 }
 
@@ -72,7 +77,16 @@ TEST(PrimitiveQuery, GivesTheSamePictureHoweverItAsks) {
          {"",
           " --queries sweep",
           " --queries groups",
-          " --queries auto --threads 7",
+          " --queries nested",
+          " --queries trees",
+          " --threads 1",
+          " --threads 2",
+          " --threads 3",
+          " --threads 8",
+          " --queries nested --threads 1",
+          " --queries nested --threads 3",
+          " --queries trees --threads 2",
+          " --queries trees --threads 8",
           " --generation-size 1000 --threads 1",
           " --generation-size 64 --threads 2"})
         EXPECT_TRUE(
@@ -85,19 +99,34 @@ TEST(PrimitiveQuery, TellsOfEachGenerationWhatItTook) {
     folder.write("a.vera", degenerate_scene);
     const ProgramRun run = run_vera(
         folder,
-        "render a.vera -o a.png --raster 60x60 --antialias off --depth 2 --strategy "
+        "render a.vera -o a.png --raster 60x60 --antialias off --depth 3 --strategy "
         "primitive-query --queries sweep --json");
     ASSERT_EQ(run.exit_code, 0) << run.err;
     const auto json = nlohmann::json::parse(run.out);
     const auto& generations = json["generations"];
-    ASSERT_EQ(generations.size(), 6U) << "view rays, two lights; what they send on, two lights";
-    const char* const kinds[] = {"rays", "shadow", "shadow", "rays", "shadow", "shadow"};
-    for (std::size_t i = 0; i < 6; ++i)
-        EXPECT_EQ(generations[i]["kind"], kinds[i]);
+    ASSERT_EQ(generations.size(), 9U)
+        << "view rays, two lights; what they send on, two lights, twice";
+    for (std::size_t i = 0; i < 9; ++i)
+        EXPECT_EQ(generations[i]["kind"], i % 3 == 0 ? "rays" : "shadow");
     EXPECT_EQ(generations[0]["rays"], 3600);
     for (const std::size_t of_one_point : {0U, 1U, 2U})
         EXPECT_EQ(generations[of_one_point]["crossings"], 0) << of_one_point;
-    EXPECT_GT(generations[3]["crossings"], 0) << "a sphere of glass spreads rays";
+    EXPECT_GT(generations[6]["crossings"], 0) << "a sphere of glass spreads rays";
+    const ProgramRun by_trees = run_vera(
+        folder,
+        "render a.vera -o a.png --raster 60x60 --antialias off --depth 3 --strategy "
+        "primitive-query --queries trees --json");
+    ASSERT_EQ(by_trees.exit_code, 0) << by_trees.err;
+    const auto of_trees = nlohmann::json::parse(by_trees.out)["generations"];
+    ASSERT_EQ(of_trees.size(), 9U);
+    for (const std::size_t i : {0U, 6U}) {
+        EXPECT_EQ(of_trees[i]["rays"], generations[i]["rays"]);
+        EXPECT_EQ(of_trees[i]["crossings"], 0);
+        EXPECT_EQ(of_trees[i]["rectangles"], 0) << "of sweeps";
+        EXPECT_GT(of_trees[i]["nodes"], 30);
+        EXPECT_GT(of_trees[i]["steps"], of_trees[i]["nodes"]);
+        EXPECT_EQ(generations[i]["nodes"], 0);
+    }
     const ProgramRun told =
         run_vera(folder, "render a.vera -o a.png --raster 20x20 --strategy primitive-query");
     EXPECT_NE(told.err.find(" generations of "), std::string::npos) << told.err;
@@ -113,7 +142,7 @@ TEST(PrimitiveQuery, RefusesWhatMeansNothingToIt) {
          "--generation-size is of --strategy primitive-query: give that, or leave "
          "--generation-size out"},
         {"--strategy primitive-query --queries all",
-         "--queries takes auto, sweep or groups; found 'all'"},
+         "--queries takes auto, sweep, groups, nested or trees; found 'all'"},
         {"--strategy primitive-query --generation-size -1", "--generation-size"},
         {"--strategy primitive-query --index grid",
          "--index grid finds hits ray by ray, and --strategy primitive-query for each primitive: "

@@ -2,12 +2,14 @@
 #include "vera/accel/brute_force.h"
 #include "vera/accel/grid_tree.h"
 #include "vera/base/available_memory.h"
+#include "vera/render/generations.h"
 #include "vera/render/render_scene.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -181,19 +183,61 @@ TEST(RenderScene, GivesTheSameBitsForGenerationsOfAnySize) {
     const auto index = make_brute_force(room.scene);
     for (const PictureSettings& settings : settings_with_and_without_antialiasing()) {
         const auto expected = bytes(room.rendered(settings));
-        for (const std::size_t size : {std::size_t{1}, std::size_t{37}, whole_generations})
-            EXPECT_EQ(
-                bytes(render_scene(
-                    room.scene,
-                    *room.scene.camera,
-                    *index,
-                    settings,
-                    SampleType::integer8,
-                    {},
-                    nullptr,
-                    size)),
-                expected)
-                << size;
+        const auto in_generations = [&](std::size_t size) {
+            return bytes(render_scene(
+                room.scene,
+                *room.scene.camera,
+                *index,
+                settings,
+                SampleType::integer8,
+                {},
+                nullptr,
+                size));
+        };
+        for (const std::size_t size : {1U, 37U, 2000U})
+            EXPECT_EQ(in_generations(size), expected) << size;
+        for (const std::size_t threads : {1U, 2U, 3U, 8U}) {
+            const ThreadLimit limit(threads);
+            EXPECT_EQ(in_generations(whole_generations), expected) << threads << " threads";
+        }
+    }
+}
+
+/// Of rays all over the picture, in one generation, what each sees and what that is made of.
+std::vector<Color> colors_and_terms(const Room& room, const RayIndex& index) {
+    const PictureSettings settings = Room::settings();
+    TracedScene traced = traced_scene(room.scene, index, settings);
+    traced.generation_size = whole_generations;
+    const ViewRays view(*room.scene.camera);
+    std::vector<QueryRay> rays;
+    for (int y = 0; y < 60; ++y)
+        for (int x = 0; x < 80; ++x) {
+            QueryRay query;
+            query.ray = view.ray(x / 80.0, y / 60.0);
+            rays.push_back(query);
+        }
+    GenerationTracer tracer(traced);
+    std::vector<Hit> hits(rays.size());
+    std::vector<SurfacePoint> at(rays.size());
+    std::vector<Color> colors(rays.size());
+    std::vector<Color> terms(rays.size() * light_way_count * tracer.terms().count());
+    tracer.nearest(rays, hits);
+    tracer.surfaces(rays, hits, at);
+    tracer.shade(rays, hits, at, colors, terms);
+    colors.insert(colors.end(), terms.begin(), terms.end());
+    return colors;
+}
+
+TEST(RenderScene, SharesALongGenerationAmongThreadsToTheBit) {
+    const Room room;
+    const auto index = make_grid_tree(room.scene);
+    std::optional<std::vector<Color>> first;
+    for (const std::size_t threads : {1U, 2U, 3U, 8U}) {
+        const ThreadLimit limit(threads);
+        const std::vector<Color> colors = colors_and_terms(room, *index);
+        if (!first)
+            first = colors;
+        EXPECT_TRUE(colors == *first) << threads;
     }
 }
 

@@ -66,16 +66,17 @@ TEST(KineticRangeTree, HoldsWhatLookingAtEachRayTellsAfterEveryEvent) {
                     ++events;
                     expect_nodes_hold_their_rays(tree, added);
                 }
+                Numbers begun;
                 for (std::uint64_t i = random() % 12; i > 0 && !waiting.empty(); --i) {
                     const std::uint32_t ray = waiting.back();
                     waiting.pop_back();
-                    if (random() % 5 == 0) {
+                    if (random() % 5 == 0)
                         tree.remove(ray); // before it was added
-                    } else {
-                        tree.add(ray);
-                        added.push_back(ray);
-                    }
+                    else
+                        begun.push_back(ray);
                 }
+                tree.add(begun);
+                added.insert(added.end(), begun.begin(), begun.end());
                 expect_nodes_hold_their_rays(tree, added);
                 for (IsoRectangle rectangle : testing::rectangles_within(4, 8, 9, random)) {
                     rectangle.z = z;

@@ -2,7 +2,7 @@
 #include "vera/base/available_memory.h"
 #include "vera/theory/nested_trees.h"
 #include "vera/theory/optimal_partition_tree.h"
-#include "vera/theory/ray_trees.h"
+#include "vera/theory/tree_queries.h"
 
 #include <algorithm>
 #include <cmath>

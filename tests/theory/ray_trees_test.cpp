@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/base/available_memory.h"
 #include "vera/theory/ray_trees.h"
+#include "vera/theory/tree_queries.h"
 
 #include <algorithm>
 #include <cmath>

@@ -153,7 +153,7 @@ TEST(SpaceSweep, TakesStepsThatGrowNoFasterThanThePaperSays) {
         std::uint64_t swaps = 0;
         const testing::Growth found = growth_beyond_bound(rays, swaps, random);
         EXPECT_LT(found.exponent - found.uncertainty, 0) << "beyond the bound";
-        EXPECT_LT(found.uncertainty, 0.3) << "tells nothing";
+        EXPECT_LT(found.uncertainty, 0.4) << "tells nothing";
         EXPECT_EQ(swaps == 0, rays == testing::pencil_of_rays) << "those of one point never cross";
     }
 }

@@ -51,7 +51,7 @@ TracedScene traced_scene(
 /// Traces whole generations of rays: all rays given, then all that those send on from mirrors and
 /// glass, and so on. A ray's colour is the sum of the lighting formula, its terms added in their
 /// order, and so depends on nothing but the ray. The buffers are kept from one call to the next;
-/// each thread uses a tracer of its own.
+/// each thread uses a tracer of its own, which gives parts of a long generation to all threads.
 class GenerationTracer {
 public:
     explicit GenerationTracer(const TracedScene& traced);
@@ -117,7 +117,8 @@ private:
         Buffer<PlaceBlock> blocks; ///< place i in lane i % block_size of i / block_size
         bool mirrors = false;      ///< whether any place does
         bool refracts = false;
-        Buffer<Child> children;
+        Buffer<Child> children;            ///< those that are mirrored first
+        std::size_t mirrored_children = 0; ///< how many these are
         Buffer<QueryRay> child_rays;
         Buffer<Color> child_colors;
 
@@ -142,10 +143,13 @@ private:
     void note_light(const Level& level, std::size_t light) const;
     void cast_shadows(const Level& level);
     void color_places(const Level& level, std::span<Color> colors);
+    void color_place(const Level& level, std::size_t number, std::span<Color> colors) const;
     void trace_children(std::uint32_t level, std::span<Color> colors);
     void find_mirrored(Level& level);
     void find_refracted(Level& level);
+    void set_child_rays(Level& level) const;
     void add_children(const Level& level, std::span<Color> colors) const;
+    void add_child(const Level& level, std::size_t number, std::span<Color> colors) const;
     void add_child_terms(const Level& level, std::size_t child) const;
     Level& level_buffers(std::uint32_t level);
 
@@ -157,6 +161,7 @@ private:
     Buffer<LightBlock> lights_;
     Buffer<RefractionBlock> refractions_;
     Buffer<BlockRows> reflected_;
+    Buffer<std::uint32_t> first_shadow_rays_; ///< of each block
     Buffer<QueryRay> shadow_rays_;
     Buffer<Color> visibilities_;
 };

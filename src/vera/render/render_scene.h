@@ -25,8 +25,9 @@ struct RenderResult {
 /// The ray traced picture of the scene. The same bits for any number of threads and any index.
 /// Beside the picture, memory does not grow with it but for a byte a pixel of anti-aliasing.
 /// Throws Cancelled soon after the flag is raised. With a generation size of whole_generations all
-/// rays of a generation are asked for at once, by one thread; std::runtime_error is thrown where
-/// the memory that is available does not suffice for the first one.
+/// rays of a generation are asked for at once, by one thread, and all threads shade them;
+/// std::runtime_error is thrown where the memory that is available does not suffice for the first
+/// one.
 RenderResult render_scene(
     const Scene& scene,
     const Camera& camera,

@@ -2,10 +2,9 @@
 #include "vera/theory/grouped_sweeps.h"
 
 #include "vera/base/available_memory.h"
-#include "vera/base/check.h"
-#include "vera/base/long_loop.h"
 #include "vera/base/random.h"
 #include "vera/theory/conjugation_tree.h"
+#include "vera/theory/ray_parts.h"
 
 #include <algorithm>
 #include <bit>
@@ -13,8 +12,6 @@
 #include <limits>
 #include <mutex>
 #include <string>
-#include <thread>
-#include <utility>
 #include <vector>
 
 namespace vera {
@@ -28,11 +25,6 @@ constexpr double alpha = 0.6942419136306174;
 
 std::size_t largest_level(std::size_t rays) {
     return rays == 0 ? 0 : static_cast<std::size_t>(std::bit_width(rays) - 1);
-}
-
-/// The rays of a group at most, of so many in 2^level.
-std::size_t group_size(std::size_t rays, std::size_t level) {
-    return std::max<std::size_t>((rays + (std::size_t{1} << level) - 1) >> level, 1);
 }
 
 /// The level of the outer tree alone.
@@ -75,25 +67,9 @@ private:
     }
 
     void sweep_group(std::span<const std::uint32_t> rays, const Numbers& asked) {
-        std::vector<SlopedRay> group;
-        std::vector<std::int32_t> last_z;
-        for (const std::uint32_t ray : rays) {
-            group.push_back(swept_.rays[ray]);
-            if (!swept_.last_z.empty())
-                last_z.push_back(swept_.last_z[ray]);
-        }
-        std::vector<IsoRectangle> rectangles;
-        for (const std::uint32_t rectangle : asked)
-            rectangles.push_back(rectangles_[rectangle]);
+        const RayPart group(rectangles_, swept_, rays, asked);
         detail::sweep_checked(
-            rectangles,
-            {group, last_z},
-            [&](std::uint32_t rectangle, std::uint32_t ray) {
-                return meeting_(asked[rectangle], rays[ray]);
-            },
-            counts,
-            {},
-            cancel_);
+            group.rectangles(), group.swept(), group.meeting(meeting_), counts, {}, cancel_);
     }
 
     std::span<const IsoRectangle> rectangles_;
@@ -102,14 +78,6 @@ private:
     const CancelFlag* cancel_;
     StepCounts steps_;
 };
-
-std::vector<ConjugationNode> leaves_of(const ConjugationTree& tree) {
-    std::vector<ConjugationNode> leaves;
-    for (const ConjugationNode& node : tree.nodes())
-        if (node.is_leaf())
-            leaves.push_back(node);
-    return leaves;
-}
 
 /// Whether two lines cross between two zs.
 bool cross(PlanePoint a, PlanePoint b, std::int32_t first_z, std::int32_t last_z) {
@@ -156,9 +124,11 @@ sampled_level(std::span<const IsoRectangle> rectangles, std::span<const SlopedRa
     first_z = std::max(first_z, lowest->z);
     if (first_z >= highest->z)
         return 0;
-    // Steps of a crossing, and of a rectangle in a group: their ratio decides.
+    // Steps of a crossing, of a rectangle in a group, and of what it takes to divide a ray's points
+    // once more: their ratios decide.
     constexpr double steps_of_crossing = 30;
     constexpr double steps_of_rectangle = 30;
+    constexpr double steps_of_division = 15;
     // On scattered rays a line leaves so many of 2^i nodes undecided: 2^(i growth).
     constexpr double growth = 0.55;
     const auto m = static_cast<double>(rays.size());
@@ -166,7 +136,8 @@ sampled_level(std::span<const IsoRectangle> rectangles, std::span<const SlopedRa
     const auto steps = [&](std::size_t level) {
         const auto i = static_cast<double>(level);
         return steps_of_crossing * crossings * std::exp2(-i)
-            + steps_of_rectangle * static_cast<double>(rectangles.size()) * std::exp2(growth * i);
+            + steps_of_rectangle * static_cast<double>(rectangles.size()) * std::exp2(growth * i)
+            + steps_of_division * m * i;
     };
     std::size_t best = 0;
     for (std::size_t level = 1; level <= largest_level(rays.size()); ++level)
@@ -183,9 +154,7 @@ void sweep_groups(
     SweepCounts* counts,
     const Progress& progress,
     const CancelFlag* cancel) {
-    require_rectangles(rectangles);
-    require_sloped_rays(swept.rays);
-    VERA_CHECK(swept.last_z.empty() || swept.last_z.size() == swept.rays.size());
+    require_swept(rectangles, swept);
     const std::size_t count = swept.rays.size();
     level = std::min(level, largest_level(count));
     require_memory(
@@ -193,37 +162,29 @@ void sweep_groups(
         "sweeps through " + std::to_string(rectangles.size()) + " rectangles with "
             + std::to_string(count) + " rays",
         "fewer rays at a time take less");
-    std::vector<PlanePoint> x_points(count);
     std::vector<PlanePoint> y_points(count);
-    std::transform(swept.rays.begin(), swept.rays.end(), x_points.begin(), x_point);
     std::transform(swept.rays.begin(), swept.rays.end(), y_points.begin(), y_point);
-    Numbers all(count);
-    for (std::uint32_t ray = 0; ray < count; ++ray)
-        all[ray] = ray;
-    const ConjugationTree outer(
-        x_points, std::move(all), group_size(count, outer_level(level)), {}, cancel);
-    const std::vector<ConjugationNode> nodes = leaves_of(outer);
     SweepCounts together;
     std::mutex mutex;
-    long_parallel_loop(nodes.size(), progress, cancel, 1, [&](std::size_t i) {
+    const auto sweep_node = [&](std::span<const std::uint32_t> rays, const Numbers& asked) {
         NodeSweeper sweeper(rectangles, swept, meeting, cancel);
-        StepCounts steps;
-        Numbers asked;
-        for (std::uint32_t r = 0; r < rectangles.size(); ++r)
-            if (outer.inclusion(nodes[i], x_strip(rectangles[r]), steps) != Inclusion::none)
-                asked.push_back(r);
         sweeper.counts.hulls += rectangles.size();
-        const auto rays = outer.numbers_of(nodes[i]);
         const ConjugationTree inner(
-            y_points, Numbers(rays.begin(), rays.end()), group_size(count, level), {}, cancel);
+            y_points, Numbers(rays.begin(), rays.end()), part_size(count, level), {}, cancel);
         sweeper.sweep(inner, asked);
         const std::lock_guard lock(mutex);
         together += sweeper.counts;
-    });
+    };
+    for_each_part(
+        part_size(count, outer_level(level)),
+        EqualPoints::together,
+        rectangles,
+        swept,
+        sweep_node,
+        progress,
+        cancel);
     if (counts != nullptr)
         *counts += together;
-    if (progress)
-        progress(1);
 }
 
 FirstRectangles sweep_groups_first_rectangles(
@@ -234,24 +195,23 @@ FirstRectangles sweep_groups_first_rectangles(
     const Progress& progress,
     const CancelFlag* cancel) {
     FirstRectangles first(rays.size());
-    sweep_groups(level, rectangles, {rays}, detail::first_meeting(first), counts, progress, cancel);
+    sweep_groups(level, rectangles, {rays}, first_meeting(first), counts, progress, cancel);
     return first;
 }
 
 double sweep_groups_bytes_forecast(std::size_t level, std::size_t rectangles, std::size_t rays) {
-    const std::size_t threads = std::min<std::size_t>(
-        std::max(std::thread::hardware_concurrency(), 1U), std::size_t{1} << level);
     // Groups at work at once have no more rays than there are, and each list of rectangles no more
     // than there are: one for each node from the root to the group, and the group's own.
-    const std::size_t lists = outer_level(level) + 3;
+    const std::size_t lists = outer_level(level) + 2;
     const std::size_t each_rectangle =
-        lists * sizeof(std::uint32_t) + sizeof(IsoRectangle) + sizeof(std::uint32_t);
-    constexpr std::size_t each_ray = 2 * sizeof(PlanePoint) + sizeof(SlopedRay)
-        + sizeof(std::int32_t) + sizeof(std::uint32_t) + ConjugationTree::building_bytes_per_point;
-    return sweep_bytes_forecast(0, rays)
-        + static_cast<double>(threads * rectangles * each_rectangle)
+        (lists + 1) * sizeof(std::uint32_t) + RayPart::bytes_per_rectangle;
+    constexpr std::size_t each_ray = sizeof(PlanePoint) + RayPart::bytes_per_ray
+        + sizeof(std::uint32_t) + ConjugationTree::building_bytes_per_point;
+    return parts_bytes_forecast(outer_level(level), rectangles, rays)
+        + sweep_bytes_forecast(0, rays)
+        + static_cast<double>(parts_at_work(level) * rectangles * each_rectangle)
         + static_cast<double>(rays * each_ray)
-        + 2 * ConjugationTree::bytes_forecast(rays, group_size(rays, level));
+        + ConjugationTree::bytes_forecast(rays, part_size(rays, level));
 }
 
 } // namespace vera

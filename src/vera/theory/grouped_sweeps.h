@@ -25,9 +25,9 @@ namespace vera {
 std::size_t
 stated_level(std::size_t rectangles, std::size_t rays, TreeKind kind = TreeKind::conjugation);
 
-/// The level at which the steps are likely to be fewest: by the crossings among a thousand pairs of
-/// the rays within the range of the rectangles. 0, which is one sweep of all, where rays that come
-/// from one point do not cross.
+/// The level at which the steps are likely to be fewest, those that divide the rays among them: by
+/// the crossings among a thousand pairs of the rays within the range of the rectangles. 0, which is
+/// one sweep of all, where rays that come from one point do not cross.
 std::size_t
 sampled_level(std::span<const IsoRectangle> rectangles, std::span<const SlopedRay> rays);
 

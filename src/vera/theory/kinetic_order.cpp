@@ -5,7 +5,7 @@
 #include "vera/theory/sloped_ray.h"
 
 #include <algorithm>
-#include <numeric>
+#include <compare>
 #include <utility>
 
 namespace vera {
@@ -15,6 +15,15 @@ namespace {
 /// A heap of events may hold so many for each ray before those that hold no more are dropped: each
 /// ray has one that holds.
 constexpr std::size_t events_per_ray = 4;
+
+/// A ray where the order begins.
+struct Placed {
+    std::int64_t value = 0;
+    std::int32_t slope = 0;
+    std::uint32_t ray = 0;
+
+    friend auto operator<=>(const Placed&, const Placed&) = default;
+};
 
 } // namespace
 
@@ -27,14 +36,12 @@ KineticOrder::KineticOrder(
     , before_(points.size())
     , after_(points.size())
     , version_(points.size()) {
-    std::iota(at_.begin(), at_.end(), std::uint32_t{0});
-    std::sort(at_.begin(), at_.end(), [&](std::uint32_t a, std::uint32_t b) {
-        const std::int64_t value_a = value_at(points[a], first_z);
-        const std::int64_t value_b = value_at(points[b], first_z);
-        if (value_a != value_b)
-            return value_a < value_b;
-        return points[a].x != points[b].x ? points[a].x < points[b].x : a < b;
-    });
+    std::vector<Placed> placed(points.size());
+    for (std::uint32_t ray = 0; ray < placed.size(); ++ray)
+        placed[ray] = {value_at(points[ray], first_z), points[ray].x, ray};
+    std::sort(placed.begin(), placed.end());
+    std::transform(
+        placed.begin(), placed.end(), at_.begin(), [](const Placed& one) { return one.ray; });
     events_.reserve(events_per_ray * (points.size() + 1));
     for (std::uint32_t place = 0; place < at_.size(); ++place) {
         place_[at_[place]] = place;
@@ -129,6 +136,7 @@ void KineticOrder::remove(std::uint32_t ray) {
 }
 
 double KineticOrder::bytes_forecast(std::size_t rays) {
+    // What sorts them at first is given back before there are that many events.
     return static_cast<double>(
         rays * (5 * sizeof(std::uint32_t) + (events_per_ray + 3) * sizeof(Event)));
 }

@@ -2,7 +2,7 @@
 #include "vera/theory/kinetic_range_tree.h"
 
 #include <algorithm>
-#include <array>
+#include <cstddef>
 #include <utility>
 
 namespace vera {
@@ -16,8 +16,21 @@ points_of(std::span<const SlopedRay> rays, PlanePoint (*point)(const SlopedRay& 
     return points;
 }
 
-/// A node of a std::set of numbers, and what an allocator adds to it.
-constexpr std::size_t bytes_of_entry = 48;
+/// A node of a std::set of numbers.
+constexpr std::size_t bytes_of_entry = 40;
+
+/// Above the leaves.
+std::size_t levels_of_search_trees(std::size_t rays) {
+    std::size_t levels = 0;
+    for (std::size_t size = std::size_t{1} << KineticRangeTree::leaf_bits; size < rays; size *= 2)
+        ++levels;
+    return levels;
+}
+
+/// What search trees take where all rays are added.
+std::size_t bytes_of_entries(std::size_t rays) {
+    return rays * levels_of_search_trees(rays) * bytes_of_entry;
+}
 
 } // namespace
 
@@ -50,7 +63,8 @@ KineticRangeTree::KineticRangeTree(
     , x_(x_points_, first_z, last_z)
     , y_(y_points_, first_z, last_z)
     , counts_(counts)
-    , is_added_(rays.size()) {
+    , is_added_(rays.size())
+    , entries_(bytes_of_entries(rays.size()) + alignof(std::max_align_t)) {
     for (std::size_t size = std::size_t{1} << leaf_bits;; size *= 2) {
         std::vector<Node>& level = levels_.emplace_back();
         const std::size_t count = (rays.size() + size - 1) / size;
@@ -59,7 +73,7 @@ KineticRangeTree::KineticRangeTree(
             level.push_back(
                 {static_cast<std::uint32_t>(i * size),
                  static_cast<std::uint32_t>(std::min((i + 1) * size, rays.size()) - 1),
-                 RaysByY(ByY{this})});
+                 RaysByY(ByY{this}, &entries_)});
         if (count <= 1)
             break;
     }
@@ -127,16 +141,23 @@ void KineticRangeTree::pass_in_y(const Crossing& crossing) {
     ++counts_.y_swaps;
 }
 
-void KineticRangeTree::add(std::uint32_t ray) {
-    is_added_[ray] = 1;
-    for_each_above(x_.place(ray), [&](Node& node) { node.by_y.insert(ray); });
-    counts_.moves += levels_.size() - 1;
+void KineticRangeTree::add(std::span<const std::uint32_t> rays) {
+    // In the order of y, so that each goes to the end of what has been added with it.
+    by_y_.assign(rays.begin(), rays.end());
+    std::sort(by_y_.begin(), by_y_.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return y_.place(a) < y_.place(b);
+    });
+    for (const std::uint32_t ray : by_y_) {
+        is_added_[ray] = 1;
+        for_each_above(x_.place(ray), [&](Node& node) { node.by_y.insert(node.by_y.end(), ray); });
+    }
+    counts_.moves += rays.size() * (levels_.size() - 1);
 }
 
 void KineticRangeTree::remove(std::uint32_t ray) {
     const std::uint32_t place = x_.place(ray);
     if (is_added_[ray] != 0) {
-        for_each_above(place, [&](Node& node) { node.by_y.erase(ray); });
+        for_each_above(place, [&](Node& node) { node.by_y.erase(node.by_y.find(ray)); });
         counts_.moves += levels_.size() - 1;
         is_added_[ray] = 0;
     }
@@ -215,13 +236,13 @@ void KineticRangeTree::append_in_y(const Node& node) {
 }
 
 double KineticRangeTree::bytes_forecast(std::size_t rays) {
-    std::size_t levels = 0;
     std::size_t nodes = 1;
-    for (std::size_t size = std::size_t{1} << leaf_bits; size < rays; size *= 2, ++levels)
+    for (std::size_t size = std::size_t{1} << leaf_bits; size < rays; size *= 2)
         nodes += (rays + size - 1) / size;
-    constexpr std::size_t each = 2 * sizeof(PlanePoint) + sizeof(std::uint8_t);
+    constexpr std::size_t each =
+        2 * sizeof(PlanePoint) + sizeof(std::uint8_t) + sizeof(std::uint32_t);
     return 2 * KineticOrder::bytes_forecast(rays)
-        + static_cast<double>(rays * (each + levels * bytes_of_entry) + nodes * sizeof(Node));
+        + static_cast<double>(rays * each + bytes_of_entries(rays) + nodes * sizeof(Node));
 }
 
 } // namespace vera

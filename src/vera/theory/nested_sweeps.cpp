@@ -3,12 +3,12 @@
 
 #include "vera/base/available_memory.h"
 #include "vera/base/check.h"
-#include "vera/base/long_loop.h"
+#include "vera/theory/ray_parts.h"
 
 #include <algorithm>
 #include <memory>
+#include <mutex>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace vera {
@@ -56,13 +56,15 @@ public:
     void append_met(const IsoRectangle& rectangle, const LiveRays& live, Numbers& met) {
         while (tree_->pass_crossing(rectangle.z))
             ;
+        found_.clear();
         for (; begun_ < by_first_z_.size(); ++begun_) {
             const std::uint32_t ray = by_first_z_[begun_];
             if (rectangle.z < rays_[ray].first_z)
                 break;
             if (live.is_live(numbers_[ray])) // and has not ended since it began
-                tree_->add(ray);
+                found_.push_back(ray);
         }
+        tree_->add(found_);
         found_.clear();
         tree_->append_met(is_flat_ ? flattened(rectangle) : rectangle, found_);
         for (const std::uint32_t ray : found_)
@@ -85,6 +87,7 @@ private:
     Numbers found_;
 };
 
+/// What tells the plane the rays of a rectangle.
 class NestedSweeps {
 public:
     NestedSweeps(const RayTrees& trees, std::int32_t last_z, NestedSweepCounts& counts)
@@ -92,55 +95,51 @@ public:
         , last_z_(last_z)
         , counts_(counts)
         , live_(trees)
-        , sweeps_(trees.node_count())
-        , by_first_z_(rays_by_first_z(trees.rays())) {}
+        , sweeps_(trees.node_count()) {}
 
-    /// The rays that meet the rectangle and no earlier one: they end.
-    const Numbers& met_first(const IsoRectangle& rectangle) {
-        for (; begun_ < by_first_z_.size(); ++begun_) {
-            if (rectangle.z < trees_.rays()[by_first_z_[begun_]].first_z)
-                break;
-            live_.add(by_first_z_[begun_], counts_.trees);
-        }
-        met_.clear();
-        trees_.visit(rectangle, counts_.trees, Visitor{*this, rectangle});
-        for (const std::uint32_t ray : met_)
-            end(ray);
-        return met_;
+    /// Each sweep moves when it is asked.
+    void move_to(std::int32_t /*z*/) {}
+
+    void begin(std::span<const std::uint32_t> rays) {
+        for (const std::uint32_t ray : rays)
+            live_.add(ray, counts_.trees);
     }
 
-    bool have_all_ended() const { return live_.count() == 0 && begun_ == by_first_z_.size(); }
+    /// Sweeps that were made before hold the ray, too, where it has not begun.
+    void end(std::uint32_t ray) {
+        if (live_.is_live(ray))
+            live_.remove(ray, counts_.trees);
+        trees_.for_each_node_of(ray, [&](RayNode node) {
+            if (NodeSweep* const sweep = sweeps_[node.number()].get())
+                sweep->remove(ray);
+        });
+    }
+
+    void append_met(const IsoRectangle& rectangle, Numbers& met) {
+        trees_.visit(rectangle, counts_.trees, Visitor{*this, rectangle, met});
+    }
 
 private:
     struct Visitor {
         NestedSweeps& sweeps;
         const IsoRectangle& rectangle;
+        Numbers& found;
 
         bool enters(RayNode node) const { return sweeps.live_.count_in(node) > 0; }
 
-        void met(RayNode node) const {
-            sweeps.live_.append_of(node, sweeps.met_, sweeps.counts_.trees);
-        }
+        void met(RayNode node) const { sweeps.live_.append_of(node, found, sweeps.counts_.trees); }
 
-        void open_in_y(RayNode node) const { sweeps.ask(node, rectangle); }
+        void open_in_y(RayNode node) const { sweeps.ask(node, rectangle, found); }
 
-        void open(RayNode node) const { sweeps.ask(node, rectangle); }
+        void open(RayNode node) const { sweeps.ask(node, rectangle, found); }
     };
 
-    void ask(RayNode node, const IsoRectangle& rectangle) {
+    void ask(RayNode node, const IsoRectangle& rectangle, Numbers& met) {
         std::unique_ptr<NodeSweep>& sweep = sweeps_[node.number()];
         if (!sweep)
             sweep = std::make_unique<NodeSweep>(
                 node, trees_, live_, rectangle.z, last_z_, counts_.sweeps);
-        sweep->append_met(rectangle, live_, met_);
-    }
-
-    void end(std::uint32_t ray) {
-        live_.remove(ray, counts_.trees);
-        trees_.for_each_node_of(ray, [&](RayNode node) {
-            if (NodeSweep* const sweep = sweeps_[node.number()].get())
-                sweep->remove(ray);
-        });
+        sweep->append_met(rectangle, live_, met);
     }
 
     const RayTrees& trees_;
@@ -148,12 +147,81 @@ private:
     NestedSweepCounts& counts_;
     LiveRays live_;
     std::vector<std::unique_ptr<NodeSweep>> sweeps_; ///< of each node that was asked
-    Numbers by_first_z_;
-    std::size_t begun_ = 0;
-    Numbers met_;
+};
+
+/// The most rays of a node at which trees are cut.
+std::size_t few_at(std::size_t level, std::size_t rays) {
+    return part_size(rays, std::min<std::size_t>(level, 31));
+}
+
+/// The proposition itself, on one thread.
+struct NestedQuery {
+    std::size_t few = 1;
+    TreeKind kind = TreeKind::conjugation;
+    const CancelFlag* cancel = nullptr;
+
+    void answer(
+        std::span<const IsoRectangle> rectangles,
+        const SweptRays& swept,
+        const Meeting& meeting,
+        NestedSweepCounts& counts,
+        const Progress& progress) const {
+        if (rectangles.empty() || swept.rays.empty())
+            return;
+        const RayTrees trees(swept.rays, few, {}, cancel, kind);
+        MovingPlane plane(rectangles, swept, meeting);
+        NestedSweeps sweeps(trees, plane.last_z(), counts);
+        plane.run(sweeps, progress, cancel);
+    }
 };
 
 } // namespace
+
+void nested_sweeps(
+    std::size_t level,
+    std::size_t parts_level,
+    std::span<const IsoRectangle> rectangles,
+    const SweptRays& swept,
+    const Meeting& meeting,
+    NestedSweepCounts* counts,
+    const Progress& progress,
+    const CancelFlag* cancel,
+    TreeKind kind) {
+    require_swept(rectangles, swept);
+    const std::size_t count = swept.rays.size();
+    parts_level = std::min({parts_level, level, std::size_t{31}});
+    require_memory(
+        nested_sweeps_bytes_forecast(level, parts_level, rectangles.size(), count, kind),
+        "nested sweeps of " + std::to_string(count) + " rays",
+        "fewer rays at a time, and trees that are cut higher, take less");
+    const NestedQuery query = {few_at(level, count), kind, cancel};
+    NestedSweepCounts together;
+    if (parts_level == 0) {
+        query.answer(rectangles, swept, meeting, together, progress);
+    } else {
+        std::mutex mutex;
+        const auto answer = [&](std::span<const std::uint32_t> rays, const Numbers& asked) {
+            const RayPart part(rectangles, swept, rays, asked);
+            NestedSweepCounts steps;
+            steps.sweeps.hulls += rectangles.size();
+            query.answer(part.rectangles(), part.swept(), part.meeting(meeting), steps, {});
+            const std::lock_guard lock(mutex);
+            together += steps;
+        };
+        for_each_part(
+            part_size(count, parts_level),
+            EqualPoints::apart,
+            rectangles,
+            swept,
+            answer,
+            progress,
+            cancel);
+    }
+    if (counts != nullptr)
+        *counts += together;
+    if (progress)
+        progress(1);
+}
 
 FirstRectangles nested_sweeps_first_rectangles(
     std::size_t level,
@@ -163,33 +231,30 @@ FirstRectangles nested_sweeps_first_rectangles(
     const Progress& progress,
     const CancelFlag* cancel,
     TreeKind kind) {
-    require_rectangles(rectangles);
-    const std::size_t depth = std::min<std::size_t>(level, 31);
-    const std::size_t few =
-        std::max<std::size_t>((rays.size() + (std::size_t{1} << depth) - 1) >> depth, 1);
-    // A ray is in the sweep of one node of the outer tree, and of one of each inner tree above it.
-    require_memory(
-        depth_factor(kind) * static_cast<double>(depth + 2)
-                * KineticRangeTree::bytes_forecast(rays.size())
-            + RayTrees::bytes_forecast(rays.size(), few, kind),
-        "nested sweeps of " + std::to_string(rays.size()) + " rays",
-        "fewer rays at a time, and trees that are cut higher, take less");
-    const RayTrees trees(rays, few, {}, cancel, kind);
     FirstRectangles first(rays.size());
-    if (rectangles.empty() || rays.empty())
-        return first;
-    NestedSweepCounts steps;
-    const Numbers order = rectangles_by_z(rectangles);
-    NestedSweeps sweeps(trees, rectangles[order.back()].z, counts != nullptr ? *counts : steps);
-    const LongLoop loop(order.size(), progress, cancel, 16);
-    for (std::size_t i = 0; i < order.size() && !sweeps.have_all_ended(); ++i) {
-        loop.turn(i);
-        for (const std::uint32_t ray : sweeps.met_first(rectangles[order[i]]))
-            first[ray] = order[i];
-    }
-    if (progress)
-        progress(1);
+    nested_sweeps(
+        level, 0, rectangles, {rays}, first_meeting(first), counts, progress, cancel, kind);
     return first;
+}
+
+double nested_sweeps_bytes_forecast(
+    std::size_t level,
+    std::size_t parts_level,
+    std::size_t rectangles,
+    std::size_t rays,
+    TreeKind kind) {
+    parts_level = std::min(parts_level, level);
+    const std::size_t size = part_size(rays, parts_level);
+    const std::size_t depth = std::min<std::size_t>(level, 31) - parts_level;
+    // A ray is in the sweep of one node of the outer tree, and of one of each inner tree above it.
+    const double of_part =
+        depth_factor(kind) * static_cast<double>(depth + 2) * KineticRangeTree::bytes_forecast(size)
+        + RayTrees::bytes_forecast(size, few_at(level, rays), kind)
+        + moving_plane_bytes_forecast(rectangles, size)
+        + static_cast<double>(
+            size * RayPart::bytes_per_ray + rectangles * RayPart::bytes_per_rectangle);
+    return parts_bytes_forecast(parts_level, rectangles, rays)
+        + static_cast<double>(parts_at_work(parts_level)) * of_part;
 }
 
 } // namespace vera

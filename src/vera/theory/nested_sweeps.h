@@ -11,6 +11,7 @@
 
 #include "vera/base/parallel.h"
 #include "vera/theory/kinetic_range_tree.h"
+#include "vera/theory/moving_plane.h"
 #include "vera/theory/ray_trees.h"
 
 #include <cstddef>
@@ -21,11 +22,31 @@ namespace vera {
 struct NestedSweepCounts {
     StepCounts trees;
     SweepCounts sweeps;
+
+    NestedSweepCounts& operator+=(const NestedSweepCounts& more) {
+        trees += more.trees;
+        sweeps += more.sweeps;
+        return *this;
+    }
 };
 
-/// As brute_force_first_rectangles(). Throws std::invalid_argument as require_sloped_rays() and
-/// require_rectangles() do, std::runtime_error where the memory that is available does not suffice,
-/// and Cancelled.
+/// As sweep(), and throws likewise; by trees that are cut at the level. Rays are in 2^parts_level
+/// parts at most, each with trees and sweeps of its own, which are worked on by all threads: these
+/// levels have no inner trees. Level and parts_level count from the root. The meeting is called
+/// from many threads, but never from two of the same ray at once; of each ray in the order of
+/// sweep(). The counts are the same for any number of threads.
+void nested_sweeps(
+    std::size_t level,
+    std::size_t parts_level,
+    std::span<const IsoRectangle> rectangles,
+    const SweptRays& swept,
+    const Meeting& meeting,
+    NestedSweepCounts* counts = nullptr,
+    const Progress& progress = {},
+    const CancelFlag* cancel = nullptr,
+    TreeKind kind = TreeKind::conjugation);
+
+/// As brute_force_first_rectangles(), in one part.
 FirstRectangles nested_sweeps_first_rectangles(
     std::size_t level,
     std::span<const IsoRectangle> rectangles,
@@ -33,6 +54,14 @@ FirstRectangles nested_sweeps_first_rectangles(
     NestedSweepCounts* counts = nullptr,
     const Progress& progress = {},
     const CancelFlag* cancel = nullptr,
+    TreeKind kind = TreeKind::conjugation);
+
+/// What nested_sweeps() takes of memory, in bytes, at most; of optimal trees about so much.
+double nested_sweeps_bytes_forecast(
+    std::size_t level,
+    std::size_t parts_level,
+    std::size_t rectangles,
+    std::size_t rays,
     TreeKind kind = TreeKind::conjugation);
 
 } // namespace vera

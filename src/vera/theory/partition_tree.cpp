@@ -30,6 +30,15 @@ void append(const PlaneHull& hull, PartitionNode& node, std::vector<std::uint32_
 
 } // namespace
 
+StepCounts& StepCounts::operator+=(const StepCounts& more) {
+    nodes += more.nodes;
+    vertices += more.vertices;
+    points += more.points;
+    searches += more.searches;
+    counters += more.counters;
+    return *this;
+}
+
 PartitionTree::PartitionTree(
     std::span<const PlanePoint> points,
     TreeShape shape,

@@ -23,6 +23,11 @@ struct StepCounts {
     std::uint64_t points = 0;   ///< or rectangles, or rays, looked at one by one
     std::uint64_t searches = 0; ///< in sorted lists
     std::uint64_t counters = 0; ///< of what nodes hold, looked at to report it, or changed
+
+    StepCounts& operator+=(const StepCounts& more);
+
+    /// All steps.
+    std::uint64_t steps() const { return nodes + vertices + points + searches + counters; }
 };
 
 /// How the points of a node lie to a strip.

@@ -9,7 +9,10 @@
 #include "vera/scene/bounds.h"
 #include "vera/theory/grouped_sweeps.h"
 #include "vera/theory/point_boxes.h"
+#include "vera/theory/ray_parts.h"
+#include "vera/theory/tree_queries.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <limits>
@@ -36,6 +39,16 @@ std::size_t largest_useful_level(std::size_t rays) {
     while (rays >> (level + KineticRangeTree::leaf_bits + 1) != 0)
         ++level;
     return level;
+}
+
+/// The zs at which there are any, ascending.
+std::vector<std::int32_t> planes_of(std::span<const IsoRectangle> rectangles) {
+    std::vector<std::int32_t> planes;
+    planes.reserve(rectangles.size());
+    for (const IsoRectangle& rectangle : rectangles)
+        planes.push_back(rectangle.z);
+    std::sort(planes.begin(), planes.end());
+    return planes;
 }
 
 } // namespace
@@ -164,12 +177,11 @@ void PrimitiveQueryIndex::answer(
     StageProgress stages(generation_progress(), sweeps);
     for (std::size_t axis = 0; axis < 3; ++axis)
         for (const bool upwards : {true, false})
-            generation.sweeps +=
-                sweep_along({axis, upwards}, swept, counted, generation, stages.next(1));
+            sweep_along({axis, upwards}, swept, counted, generation, stages.next(1));
     generation.tests = tests;
     counts.rays += generation.rays;
     counts.tests += generation.tests;
-    counts.cells += generation.sweeps.nodes;
+    counts.cells += generation.sweeps.nodes + generation.trees.nodes;
     const std::lock_guard lock(mutex_);
     generations_.push_back(generation);
 }
@@ -225,28 +237,35 @@ void PrimitiveQueryIndex::look_where_rays_begin(
     }
 }
 
-SweepCounts PrimitiveQueryIndex::sweep_along(
+void PrimitiveQueryIndex::sweep_along(
     SweepDirection direction,
     std::vector<Swept>& swept,
     const Test& test,
     GenerationCounts& generation,
     const Progress& progress) const {
+    std::vector<IsoRectangle> rectangles;
+    rectangles.reserve(boxes_.size());
+    for (const StepBox& box : boxes_)
+        rectangles.push_back(grid_.entry(box, direction));
+    const std::vector<std::int32_t> planes = planes_of(rectangles);
     std::vector<SlopedRay> rays;
     std::vector<std::int32_t> last_z;
     std::vector<std::uint32_t> numbers;
     for (std::uint32_t ray = 0; ray < swept.size(); ++ray) {
         if (swept[ray].end == ended)
             continue;
-        if (const auto sloped = grid_.sloped_ray(swept[ray].ray, direction)) {
-            rays.push_back(*sloped);
-            last_z.push_back(grid_.last_step(swept[ray].ray, swept[ray].end, direction));
-            numbers.push_back(ray);
-        }
+        const auto sloped = grid_.sloped_ray(swept[ray].ray, direction);
+        if (!sloped)
+            continue;
+        const std::int32_t last = grid_.last_step(swept[ray].ray, swept[ray].end, direction);
+        // What another sweep has ended comes to no plane here.
+        const auto first = std::lower_bound(planes.begin(), planes.end(), sloped->first_z);
+        if (first == planes.end() || *first > last)
+            continue;
+        rays.push_back(*sloped);
+        last_z.push_back(last);
+        numbers.push_back(ray);
     }
-    std::vector<IsoRectangle> rectangles;
-    rectangles.reserve(boxes_.size());
-    for (const StepBox& box : boxes_)
-        rectangles.push_back(grid_.entry(box, direction));
     generation.swept += rays.size();
     generation.pairs += rays.size() * (rays.size() - (rays.empty() ? 0 : 1)) / 2;
     const Meeting meeting = [&](std::uint32_t rectangle, std::uint32_t i) {
@@ -255,29 +274,53 @@ SweepCounts PrimitiveQueryIndex::sweep_along(
         return end == ended ? std::numeric_limits<std::int32_t>::min()
                             : grid_.last_step(swept[ray].ray, end, direction);
     };
-    const std::size_t level = group_level(rectangles, rays);
-    SweepCounts counts;
-    if (level == 0)
-        sweep(rectangles, {rays, last_z}, meeting, &counts, progress, settings_.cancel);
-    else
-        sweep_groups(
-            level, rectangles, {rays, last_z}, meeting, &counts, progress, settings_.cancel);
-    return counts;
+    generation += ask(rectangles, {rays, last_z}, meeting, progress);
 }
 
-std::size_t PrimitiveQueryIndex::group_level(
-    std::span<const IsoRectangle> rectangles, std::span<const SlopedRay> rays) const {
-    if (settings_.level)
-        return *settings_.level;
+NestedSweepCounts PrimitiveQueryIndex::ask(
+    std::span<const IsoRectangle> rectangles,
+    const SweptRays& swept,
+    const Meeting& meeting,
+    const Progress& progress) const {
+    const std::size_t count = swept.rays.size();
+    const CancelFlag* const cancel = settings_.cancel;
+    NestedSweepCounts counts;
+    const auto sweep_in_groups = [&](std::size_t level) {
+        if (level == 0)
+            sweep(rectangles, swept, meeting, &counts.sweeps, progress, cancel);
+        else
+            sweep_groups(level, rectangles, swept, meeting, &counts.sweeps, progress, cancel);
+    };
+    const std::size_t stated = settings_.level.value_or(stated_level(rectangles.size(), count));
     switch (settings_.queries) {
-    case RayQueries::sweep:
-        return 0;
-    case RayQueries::groups:
-        return stated_level(rectangles.size(), rays.size());
-    case RayQueries::automatic:
+    case RayQueries::automatic: {
+        const std::size_t sampled =
+            std::min(sampled_level(rectangles, swept.rays), largest_useful_level(count));
+        sweep_in_groups(settings_.level.value_or(sampled));
         break;
     }
-    return std::min(sampled_level(rectangles, rays), largest_useful_level(rays.size()));
+    case RayQueries::sweep:
+        sweep_in_groups(0);
+        break;
+    case RayQueries::groups:
+        sweep_in_groups(stated);
+        break;
+    case RayQueries::nested:
+        nested_sweeps(
+            std::min(stated, largest_useful_level(count)),
+            usual_parts_level(count),
+            rectangles,
+            swept,
+            meeting,
+            &counts,
+            progress,
+            cancel);
+        break;
+    case RayQueries::trees:
+        query_trees(rectangles, swept, meeting, &counts.trees, progress, cancel);
+        break;
+    }
+    return counts;
 }
 
 std::size_t PrimitiveQueryIndex::memory() const {

@@ -2,17 +2,18 @@
 // Generation-wise ray tracing with primitive queries (VERA 3.3.2) of any scene: for each primitive,
 // the rays of a generation that it may meet are found, and not the other way round.
 //
-// The primitives' boxes become rectangles, and the rays whole rays (query_grid.h). Six space
-// sweeps, up and down each axis, tell which rays enter which boxes. Those primitives are tested,
-// and a ray ends where nothing behind can be in front of what it has met. Boxes in which a ray
-// begins are told apart. Shadow rays are swept from the light to the place, and so all of a light
-// come from one point.
+// The primitives' boxes become rectangles, and the rays whole rays (query_grid.h). Six sweeps, up
+// and down each axis, by a kinetic range tree or by trees of rays, tell which rays enter which
+// boxes. Those primitives are tested, and a ray ends where nothing behind can be in front of what
+// it has met. Boxes in which a ray begins are told apart. Shadow rays are swept from the light to
+// the place, and so all of a light come from one point.
 //
 // What is tested is what other indexes test, and so the hits are the same to the bit.
 #pragma once
 
 #include "vera/accel/ray_index.h"
 #include "vera/base/parallel.h"
+#include "vera/theory/nested_sweeps.h"
 #include "vera/theory/placed_primitives.h"
 #include "vera/theory/query_grid.h"
 #include "vera/theory/space_sweep.h"
@@ -31,13 +32,16 @@ namespace vera {
 enum class RayQueries {
     automatic, ///< in as many groups as crossings that are sampled tell: one where rays do not
                ///< cross
-    sweep,     ///< in one group
-    groups     ///< in as many as proposition 5 says
+    sweep,     ///< in one space sweep
+    groups,    ///< in the sweeps of as many groups as proposition 5 says
+    nested,    ///< in the sweeps at the ends of nested trees, as proposition 5 is stated
+    trees      ///< in the nested trees of proposition 3
 };
 
 struct PrimitiveQuerySettings {
     RayQueries queries = RayQueries::automatic;
-    std::optional<std::size_t> level = {}; ///< rays are in 2^level groups, whatever the above says
+    std::optional<std::size_t> level = {}; ///< of groups and of nested sweeps: 2^level groups; of
+                                           ///< automatic: in these
     Progress progress = {};
     const CancelFlag* cancel = nullptr;
 };
@@ -52,6 +56,15 @@ struct GenerationCounts {
     std::uint64_t swept = 0;        ///< rays in the sweeps, each counted for each of its axes
     std::uint64_t pairs = 0;        ///< of rays in one sweep, which may cross twice
     SweepCounts sweeps;
+    StepCounts trees; ///< of queries; not what it takes to make them
+
+    std::uint64_t steps() const { return sweeps.steps() + trees.steps(); }
+
+    GenerationCounts& operator+=(const NestedSweepCounts& more) {
+        sweeps += more.sweeps;
+        trees += more.trees;
+        return *this;
+    }
 };
 
 class PrimitiveQueryIndex : public RayIndex {
@@ -96,15 +109,19 @@ private:
     void look_at_all(std::vector<Swept>& swept, const Test& test, GenerationCounts& counts) const;
     void look_where_rays_begin(
         std::vector<Swept>& swept, const Test& test, GenerationCounts& counts) const;
-    SweepCounts sweep_along(
+    void sweep_along(
         SweepDirection direction,
         std::vector<Swept>& swept,
         const Test& test,
         GenerationCounts& counts,
         const Progress& progress) const;
     Progress generation_progress() const;
-    std::size_t
-    group_level(std::span<const IsoRectangle> rectangles, std::span<const SlopedRay> rays) const;
+    /// Calls the meeting as sweep() does.
+    NestedSweepCounts
+    ask(std::span<const IsoRectangle> rectangles,
+        const SweptRays& swept,
+        const Meeting& meeting,
+        const Progress& progress) const;
     Swept from_its_beginning(const Ray& ray) const;
     Swept from_the_light(const Ray& ray) const;
 

@@ -30,13 +30,6 @@ Numbers all_numbers(std::size_t count) {
     return numbers;
 }
 
-template <typename Less>
-Numbers sorted_numbers(std::size_t count, const Less& less) {
-    Numbers numbers = all_numbers(count);
-    std::sort(numbers.begin(), numbers.end(), less);
-    return numbers;
-}
-
 } // namespace
 
 class RayTreesBuilder {
@@ -282,58 +275,11 @@ void LiveRays::append_of(RayNode node, Numbers& rays, StepCounts& counts) const 
     }
 }
 
-Numbers LiveRays::rays_met(const IsoRectangle& rectangle, StepCounts& counts) const {
-    require_rectangles({&rectangle, 1});
-    Numbers found;
+void LiveRays::append_met(const IsoRectangle& rectangle, Numbers& rays, StepCounts& counts) const {
     trees_.visit(
         rectangle,
         counts,
-        EveryLiveRay{trees_, *this, x_strip(rectangle), y_strip(rectangle), found, counts});
-    return found;
-}
-
-Numbers rectangles_by_z(std::span<const IsoRectangle> rectangles) {
-    return sorted_numbers(rectangles.size(), [&](std::uint32_t a, std::uint32_t b) {
-        return rectangles[a].z != rectangles[b].z ? rectangles[a].z < rectangles[b].z : a < b;
-    });
-}
-
-Numbers rays_by_first_z(std::span<const SlopedRay> rays) {
-    return sorted_numbers(rays.size(), [&](std::uint32_t a, std::uint32_t b) {
-        return rays[a].first_z != rays[b].first_z ? rays[a].first_z < rays[b].first_z : a < b;
-    });
-}
-
-FirstRectangles first_rectangles(
-    std::span<const IsoRectangle> rectangles,
-    const RayTrees& trees,
-    StepCounts* counts,
-    const Progress& progress,
-    const CancelFlag* cancel) {
-    require_rectangles(rectangles);
-    StepCounts steps;
-    StepCounts& counted = counts != nullptr ? *counts : steps;
-    FirstRectangles first(trees.rays().size());
-    const Numbers beginnings = rays_by_first_z(trees.rays());
-    auto begun = beginnings.begin();
-    LiveRays live(trees);
-    const LongLoop loop(rectangles.size(), progress, cancel, 16);
-    std::size_t turn = 0;
-    for (const std::uint32_t number : rectangles_by_z(rectangles)) {
-        loop.turn(turn++);
-        const IsoRectangle& rectangle = rectangles[number];
-        for (; begun != beginnings.end() && trees.rays()[*begun].first_z <= rectangle.z; ++begun)
-            live.add(*begun, counted);
-        for (const std::uint32_t ray : live.rays_met(rectangle, counted)) {
-            first[ray] = number;
-            live.remove(ray, counted);
-        }
-        if (live.count() == 0 && begun == beginnings.end())
-            break;
-    }
-    if (progress)
-        progress(1);
-    return first;
+        EveryLiveRay{trees_, *this, x_strip(rectangle), y_strip(rectangle), rays, counts});
 }
 
 } // namespace vera

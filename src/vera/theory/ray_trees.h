@@ -205,8 +205,10 @@ public:
     /// Appends the live ones of the node's rays: O(log m) each.
     void append_of(RayNode node, std::vector<std::uint32_t>& rays, StepCounts& counts) const;
 
-    /// The live rays whose lines the rectangle meets, in no order that matters.
-    std::vector<std::uint32_t> rays_met(const IsoRectangle& rectangle, StepCounts& counts) const;
+    /// Appends the live rays whose lines the rectangle meets, in no order that matters. The
+    /// rectangle must be as require_rectangles() has it.
+    void append_met(
+        const IsoRectangle& rectangle, std::vector<std::uint32_t>& rays, StepCounts& counts) const;
 
 private:
     const RayTrees& trees_;
@@ -214,22 +216,5 @@ private:
     std::vector<std::uint8_t> live_;    ///< for each ray
     std::size_t count_ = 0;
 };
-
-/// The rectangle that each ray meets first: as brute_force_first_rectangles(), and throws likewise.
-/// Goes through the rectangles as z grows. A ray is live from its first z on, until it meets one;
-/// so each is told once. Takes O(n m^0.695 polylog m) steps for n rectangles. Throws Cancelled.
-FirstRectangles first_rectangles(
-    std::span<const IsoRectangle> rectangles,
-    const RayTrees& trees,
-    StepCounts* counts = nullptr,
-    const Progress& progress = {},
-    const CancelFlag* cancel = nullptr);
-
-/// The numbers of the rectangles in the order in which a plane that goes the way z grows comes to
-/// them: by z, and by number in one plane.
-std::vector<std::uint32_t> rectangles_by_z(std::span<const IsoRectangle> rectangles);
-
-/// The numbers of the rays in the order in which it comes to their beginnings.
-std::vector<std::uint32_t> rays_by_first_z(std::span<const SlopedRay> rays);
 
 } // namespace vera

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Many rays among rectangles across the z axis, by a plane that moves through all of them (VERA
 // 3.3.2, "space sweep"; Mueller 1986). It carries the places at which it meets the rays in a
-// kinetic range tree, and where it comes to a rectangle that tree tells the rays that meet it. At
-// one z, rays cross first; then those begin that do there; then come the rectangles, in the order
-// of their numbers; and then rays end. So a ray meets the rectangles in the order in which they lie
-// along it.
+// kinetic range tree, and where it comes to a rectangle that tree tells the rays that meet it.
 //
 // With k crossings of m rays within the range of the n rectangles, and I rays told, it takes
 // O((m + k) log^2 m + n (log n + log^2 m) + I) steps and O(m log m + n) of space. k is 0 where all
@@ -14,25 +11,13 @@
 
 #include "vera/base/parallel.h"
 #include "vera/theory/kinetic_range_tree.h"
-#include "vera/theory/sloped_ray.h"
+#include "vera/theory/moving_plane.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <span>
 
 namespace vera {
-
-/// Called where a ray meets a rectangle, by their numbers. Returns the last z up to which the ray
-/// asks for more; one before the rectangle ends it at once.
-using Meeting = std::function<std::int32_t(std::uint32_t rectangle, std::uint32_t ray)>;
-
-/// Rays that end, too: what a sweep is asked.
-struct SweptRays {
-    std::span<const SlopedRay> rays;
-    std::span<const std::int32_t> last_z =
-        {}; ///< of each, up to which it asks; empty: all to the end
-};
 
 /// Calls the meeting for all rectangles that each ray meets up to where it ends. Throws
 /// std::invalid_argument as require_sloped_rays() and require_rectangles() do, std::runtime_error
@@ -67,9 +52,6 @@ void sweep_checked(
     SweepCounts& counts,
     const Progress& progress,
     const CancelFlag* cancel);
-
-/// A meeting that notes the first rectangle of each ray there, and ends the ray.
-Meeting first_meeting(FirstRectangles& first);
 
 } // namespace detail
 
