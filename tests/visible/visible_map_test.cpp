@@ -343,6 +343,38 @@ TEST(VisibleMap, HasTheRingsThatAPlainWalkFinds) {
     EXPECT_GT(rings, 1000U);
 }
 
+TEST(VisibleMap, OfWhatIsGivenAwayIsTheSameButForWhatIsNotAskedFor) {
+    std::size_t joined = 0;
+    for (std::uint64_t seed = 0; seed < 40 && !HasFailure(); ++seed) {
+        ScreenScene scene =
+            seed % 2 == 0 ? layers(seed, 30, 8) : tangle(seed, 20); // not cut: ways are joined
+        VisiblePieces pieces = cell_raster(scene);
+        const VisibleMap expected = visible_map(scene, pieces);
+        const RingDetail detail =
+            seed % 4 < 2 ? RingDetail::with_across : RingDetail::without_across;
+        const VisibleMap map = visible_map(std::move(scene), std::move(pieces), detail);
+        EXPECT_TRUE(map.vertices == expected.vertices) << seed;
+        EXPECT_EQ(map.regions, expected.regions) << seed;
+        EXPECT_EQ(map.ring_vertices, expected.ring_vertices) << seed;
+        EXPECT_EQ(map.joined, expected.joined) << seed;
+        EXPECT_EQ(map.joined_sides, expected.joined_sides) << seed;
+        ASSERT_EQ(map.rings.size(), expected.rings.size()) << seed;
+        for (std::size_t i = 0; i < map.rings.size(); ++i) {
+            EXPECT_EQ(map.rings[i].source, expected.rings[i].source) << seed;
+            EXPECT_EQ(map.rings[i].region, expected.rings[i].region) << seed;
+            EXPECT_EQ(map.rings[i].first, expected.rings[i].first) << seed;
+            EXPECT_EQ(map.rings[i].count, expected.rings[i].count) << seed;
+        }
+        if (detail == RingDetail::with_across)
+            EXPECT_EQ(map.ring_across, expected.ring_across) << seed;
+        else
+            EXPECT_TRUE(map.ring_across.empty()) << seed;
+        EXPECT_FALSE(expected.ring_across.empty()) << seed;
+        joined += map.joined;
+    }
+    EXPECT_GT(joined, 0U);
+}
+
 TEST(VisibleMap, OfNothingIsEmptyAndOfOneTriangleIsItself) {
     EXPECT_TRUE(visible_map({}, cell_raster({})).rings.empty());
     ScreenScene scene;

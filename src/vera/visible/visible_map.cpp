@@ -344,37 +344,48 @@ PartedWays parted_by_region(const Ways& ways, std::size_t regions, const CancelF
 
 /// The rings of some regions, as in a VisibleMap that has no others.
 struct TracedRings {
-    std::vector<VisibleMap::Ring> rings;
+    struct Ring {
+        std::uint32_t region = 0;
+        std::uint32_t first = 0; ///< in ring_vertices; it ends where the next one begins
+    };
+
+    std::vector<Ring> rings;
     std::vector<std::uint32_t> ring_vertices;
-    std::vector<std::uint32_t> ring_across;
+    std::vector<std::uint32_t> ring_across; ///< empty where that is not asked for
     std::vector<std::size_t> joined_sides;
     std::vector<std::uint32_t> places; ///< of the rings in the whole map
 
-    void add(std::uint32_t vertex, std::uint32_t across) {
-        ring_vertices.push_back(vertex);
-        ring_across.push_back(across);
+    std::size_t count_of(std::size_t ring) const {
+        const std::size_t end =
+            ring + 1 < rings.size() ? rings[ring + 1].first : ring_vertices.size();
+        return end - rings[ring].first;
     }
 };
 
-/// The ring along the way, whose ways are done then. next[i] is the way that follows way i.
+/// The ring along the way. next[i] is the way that follows way i, and none from now on of those
+/// along the ring.
 void trace_ring(
     std::uint32_t first,
     const Ways& ways,
-    std::span<const std::uint32_t> next,
-    std::span<std::uint8_t> done,
+    RingDetail detail,
+    std::span<std::uint32_t> next,
     TracedRings& traced) {
+    const auto add = [&](std::uint32_t vertex, std::uint32_t across) {
+        traced.ring_vertices.push_back(vertex);
+        if (detail == RingDetail::with_across)
+            traced.ring_across.push_back(across);
+    };
     std::uint32_t way = first;
     do {
-        done[way] = 1;
-        const std::uint32_t after = next[way];
+        const std::uint32_t after = std::exchange(next[way], none);
         const bool is_joined = ways.to(way) != ways.from(after);
         if (is_joined) {
             traced.joined_sides.push_back(traced.ring_vertices.size());
-            traced.add(ways.to(way), no_region);
+            add(ways.to(way), no_region);
         }
         if (is_joined || !is_straight_on(ways.direction(way), ways.direction(after))
             || ways.region[way ^ 1U] != ways.region[after ^ 1U])
-            traced.add(ways.from(after), ways.region[after ^ 1U]);
+            add(ways.from(after), ways.region[after ^ 1U]);
         way = after;
     } while (way != first);
 }
@@ -383,52 +394,29 @@ void trace_ring(
 std::vector<TracedRings> traced_rings(
     const Ways& ways,
     const PartedWays& parted,
-    std::span<const std::uint32_t> next,
+    RingDetail detail,
+    std::vector<std::uint32_t> next,
     const Progress& progress,
-    const CancelFlag* cancel,
-    std::span<const VisibleMap::Region> regions) {
-    std::vector<std::uint8_t> done(ways.count());
+    const CancelFlag* cancel) {
     std::vector<TracedRings> parts(parted.starts.size() - 1);
     long_parallel_loop(parts.size(), progress, cancel, 1, [&](std::size_t part) {
         TracedRings traced;
         const std::span<const std::uint32_t> own = parted.of(part);
         traced.ring_vertices.reserve(own.size()); // hardly fewer
-        traced.ring_across.reserve(own.size());
+        if (detail == RingDetail::with_across)
+            traced.ring_across.reserve(own.size());
         const LongLoop loop(own.size(), {}, cancel);
         for (std::size_t i = 0; i < own.size(); ++i) {
             loop.turn(i);
-            if (done[own[i]] != 0)
+            if (next[own[i]] == none)
                 continue;
-            const std::uint32_t region = ways.region[own[i]];
-            const std::size_t first = traced.ring_vertices.size();
-            trace_ring(own[i], ways, next, done, traced);
             traced.rings.push_back(
-                {regions[region].source, region, first, traced.ring_vertices.size() - first});
+                {ways.region[own[i]], static_cast<std::uint32_t>(traced.ring_vertices.size())});
+            trace_ring(own[i], ways, detail, next, traced);
         }
         parts[part] = std::move(traced);
     });
     return parts;
-}
-
-/// The rings round what is seen of each region, and its regions, into the map, whose vertices are
-/// there already. In parts, since what they are found with takes as much room as they.
-std::vector<TracedRings> find_rings(
-    const ScreenScene& scene,
-    const VisiblePieces& pieces,
-    const Progress& progress,
-    const CancelFlag* cancel,
-    VisibleMap& map) {
-    StageProgress stages(progress, 3);
-    const Ways ways = ways_of(scene, pieces, stages.next(1), cancel, map);
-    const std::vector<std::uint32_t> next = following(ways, stages.next(1), cancel, map);
-    const Progress of_rings = stages.next(1);
-    return traced_rings(
-        ways,
-        parted_by_region(ways, map.regions.size(), cancel),
-        next,
-        of_rings,
-        cancel,
-        map.regions);
 }
 
 /// Puts the rings of the parts into the map, by region, and notes their places. No two parts have
@@ -436,15 +424,18 @@ std::vector<TracedRings> find_rings(
 void place_rings(std::vector<TracedRings>& parts, VisibleMap& map) {
     std::vector<std::uint32_t> next(map.regions.size() + 1); // place of a ring of each region
     for (const TracedRings& part : parts)
-        for (const VisibleMap::Ring& ring : part.rings)
+        for (const TracedRings::Ring& ring : part.rings)
             ++next[ring.region + std::size_t{1}];
     std::partial_sum(next.begin(), next.end(), next.begin());
     map.rings.resize(next.back());
     parallel_ranges(parts.size(), 1, [&](std::size_t number, std::size_t) {
         TracedRings& part = parts[number];
-        for (const VisibleMap::Ring& ring : part.rings) {
-            part.places.push_back(next[ring.region]++);
-            map.rings[part.places.back()] = ring;
+        part.places.reserve(part.rings.size());
+        for (std::size_t i = 0; i < part.rings.size(); ++i) {
+            const std::uint32_t region = part.rings[i].region;
+            part.places.push_back(next[region]++);
+            map.rings[part.places.back()] = {
+                map.regions[region].source, region, 0, part.count_of(i)};
         }
     });
     std::size_t first = 0;
@@ -454,20 +445,22 @@ void place_rings(std::vector<TracedRings>& parts, VisibleMap& map) {
     }
 }
 
-void join_rings(std::vector<TracedRings> parts, VisibleMap& map) {
+void join_rings(std::vector<TracedRings> parts, RingDetail detail, VisibleMap& map) {
     std::size_t vertices = 0;
     for (const TracedRings& part : parts)
         vertices += part.ring_vertices.size();
     place_rings(parts, map);
     map.ring_vertices.resize(vertices);
-    map.ring_across.resize(vertices);
+    if (detail == RingDetail::with_across)
+        map.ring_across.resize(vertices);
     parallel_ranges(parts.size(), 1, [&](std::size_t number, std::size_t) {
         TracedRings& part = parts[number];
         for (std::size_t i = 0; i < part.rings.size(); ++i) {
-            const auto [from, count] = std::pair(part.rings[i].first, part.rings[i].count);
-            const std::size_t to = map.rings[part.places[i]].first;
+            const std::size_t from = part.rings[i].first;
+            const auto& [source, region, to, count] = map.rings[part.places[i]];
             std::copy_n(part.ring_vertices.data() + from, count, map.ring_vertices.data() + to);
-            std::copy_n(part.ring_across.data() + from, count, map.ring_across.data() + to);
+            if (detail == RingDetail::with_across)
+                std::copy_n(part.ring_across.data() + from, count, map.ring_across.data() + to);
         }
         free_room(part.ring_vertices);
         free_room(part.ring_across);
@@ -475,12 +468,70 @@ void join_rings(std::vector<TracedRings> parts, VisibleMap& map) {
     for (const TracedRings& part : parts)
         for (const std::size_t side : part.joined_sides) {
             const auto behind = std::ranges::upper_bound(
-                part.rings, side, {}, &VisibleMap::Ring::first); // the ring after the side's
+                part.rings, side, {}, &TracedRings::Ring::first); // the ring after the side's
             const auto ring = static_cast<std::size_t>(behind - part.rings.begin()) - 1;
             map.joined_sides.push_back(
                 map.rings[part.places[ring]].first + side - part.rings[ring].first);
         }
     std::ranges::sort(map.joined_sides);
+}
+
+/// What a map is made of and, where that need not be kept, the same to be taken apart.
+struct MapOrigin {
+    const ScreenScene& scene;
+    ScreenScene* given_scene;
+    const VisiblePieces& pieces;
+    VisiblePieces* given_pieces;
+
+    std::vector<PackedPoint> points() const {
+        if (given_pieces != nullptr)
+            return std::move(given_pieces->points);
+        return pieces.points;
+    }
+
+    /// When what is beside each way is known: where vertices are is still asked.
+    void forget_triangles() const {
+        if (given_scene != nullptr)
+            free_room(given_scene->triangles);
+        if (given_pieces != nullptr)
+            free_room(given_pieces->unlit);
+    }
+
+    void forget_pieces() const {
+        if (given_scene != nullptr)
+            free_room(given_scene->vertices);
+        if (given_pieces != nullptr)
+            free_room(given_pieces->pieces);
+    }
+};
+
+/// In parts, since what rings are found with takes as much room as they.
+std::vector<TracedRings> found_rings(
+    const MapOrigin& origin,
+    RingDetail detail,
+    const Progress& progress,
+    const CancelFlag* cancel,
+    VisibleMap& map) {
+    StageProgress stages(progress, 3);
+    const Ways ways = ways_of(origin.scene, origin.pieces, stages.next(1), cancel, map);
+    origin.forget_triangles();
+    std::vector<std::uint32_t> next = following(ways, stages.next(1), cancel, map);
+    const Progress of_rings = stages.next(1);
+    const PartedWays parted = parted_by_region(ways, map.regions.size(), cancel);
+    return traced_rings(ways, parted, detail, std::move(next), of_rings, cancel);
+}
+
+VisibleMap made_map(
+    const MapOrigin& origin,
+    RingDetail detail,
+    const Progress& progress,
+    const CancelFlag* cancel) {
+    VisibleMap map;
+    map.vertices = origin.points();
+    std::vector<TracedRings> parts = found_rings(origin, detail, progress, cancel, map);
+    origin.forget_pieces();
+    join_rings(std::move(parts), detail, map);
+    return map;
 }
 
 } // namespace
@@ -490,25 +541,18 @@ VisibleMap visible_map(
     const VisiblePieces& pieces,
     const Progress& progress,
     const CancelFlag* cancel) {
-    VisibleMap map;
-    map.vertices = pieces.points;
-    join_rings(find_rings(scene, pieces, progress, cancel, map), map);
-    return map;
+    return made_map({scene, nullptr, pieces, nullptr}, RingDetail::with_across, progress, cancel);
 }
 
 VisibleMap visible_map(
-    const ScreenScene& scene,
+    ScreenScene&& scene,
     VisiblePieces&& pieces,
+    RingDetail detail,
     const Progress& progress,
     const CancelFlag* cancel) {
-    VisiblePieces taken = std::move(pieces);
-    VisibleMap map;
-    map.vertices = std::move(taken.points);
-    std::vector<TracedRings> parts = find_rings(scene, taken, progress, cancel, map);
-    free_room(taken.pieces);
-    free_room(taken.unlit);
-    join_rings(std::move(parts), map);
-    return map;
+    ScreenScene own_scene = std::move(scene);
+    VisiblePieces own_pieces = std::move(pieces);
+    return made_map({own_scene, &own_scene, own_pieces, &own_pieces}, detail, progress, cancel);
 }
 
 double doubled_area(const VisibleMap& map, const VisibleMap::Ring& ring) {
