@@ -33,7 +33,8 @@ void add_plainly(VisiblePieces& all, const VisiblePieces& from, std::size_t i, b
     VisiblePiece piece = from.pieces[i];
     for (std::uint32_t* end : {&piece.from, &piece.to}) {
         const PackedPoint point = from.points[*end];
-        *end = static_cast<std::uint32_t>(std::ranges::find(all.points, point) - all.points.begin());
+        *end =
+            static_cast<std::uint32_t>(std::ranges::find(all.points, point) - all.points.begin());
         if (*end == all.points.size())
             all.points.push_back(point);
     }
@@ -44,8 +45,8 @@ void add_plainly(VisiblePieces& all, const VisiblePieces& from, std::size_t i, b
 
 /// Pieces of the edges from `first` to before `last`, between few points, of which some are not
 /// whole ones. Each point is there once, in the order of the pieces.
-VisiblePieces some_pieces(
-    std::mt19937& random, std::uint32_t first, std::uint32_t last, bool with_lights) {
+VisiblePieces
+some_pieces(std::mt19937& random, std::uint32_t first, std::uint32_t last, bool with_lights) {
     const auto point = [&] {
         RationalPoint some;
         some.whole.x = static_cast<std::int32_t>(random() % 3);
@@ -105,7 +106,9 @@ TEST(PieceLists, KeptAndFoundPiecesAreMergedAsAllByTheirEdges) {
         const VisiblePieces before = some_pieces(random, 0, seed % 40, has_lights_before);
         const VisiblePieces any = some_pieces(random, 0, seed % 40, has_lights_found);
         // Each edge has either what was there before, or what was found.
-        const auto is_near = [&](std::uint32_t edge) { return edge * 0x9e3779b9U >> 28U < seed % 16; };
+        const auto is_near = [&](std::uint32_t edge) {
+            return edge * 0x9e3779b9U >> 28U < seed % 16;
+        };
         std::vector<std::uint8_t> is_kept;
         std::vector<std::pair<const VisiblePieces*, std::size_t>> order;
         for (std::size_t i = 0; i < before.pieces.size(); ++i) {
@@ -120,9 +123,8 @@ TEST(PieceLists, KeptAndFoundPiecesAreMergedAsAllByTheirEdges) {
         found.penetrating = any.penetrating;
         for (std::size_t i = 0; i < found.pieces.size(); ++i)
             order.emplace_back(&found, i);
-        std::ranges::stable_sort(order, {}, [](const auto& piece) {
-            return piece.first->pieces[piece.second].edge;
-        });
+        std::ranges::stable_sort(
+            order, {}, [](const auto& piece) { return piece.first->pieces[piece.second].edge; });
         VisiblePieces expected;
         expected.penetrating = found.penetrating;
         for (const auto& [list, i] : order)

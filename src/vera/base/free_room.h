@@ -16,8 +16,8 @@ void free_room(std::vector<T>& vector) {
 /// others that are in use, for the next ones that fit.)
 void give_back_freed_blocks();
 
-/// Gives what was freed, but is kept to be used again, back to the system. For the moment after much
-/// was freed in small blocks, of which nothing else is needed as often.
+/// Gives what was freed, but is kept to be used again, back to the system. For the moment after
+/// much was freed in small blocks, of which nothing else is needed as often.
 void give_back_freed_memory();
 
 } // namespace vera

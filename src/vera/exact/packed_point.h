@@ -17,14 +17,14 @@ public:
 
     /// The point must lie in the picture, as all that point_at() returns do.
     PackedPoint(const RationalPoint& point) { // NOLINT: it is the same point
-        const std::uint64_t whole =
-            static_cast<std::uint64_t>(point.whole.x) << half_bits
+        const std::uint64_t whole = static_cast<std::uint64_t>(point.whole.x) << half_bits
             | static_cast<std::uint64_t>(point.whole.y);
         const auto word = [&](std::int64_t number, int third) {
             return static_cast<std::uint64_t>(number) << third_bits
                 | (whole >> (third * third_bits) & third_mask);
         };
-        words_ = {word(point.x_numerator, 0), word(point.y_numerator, 1), word(point.denominator, 2)};
+        words_ = {
+            word(point.x_numerator, 0), word(point.y_numerator, 1), word(point.denominator, 2)};
     }
 
     operator RationalPoint() const { // NOLINT: it is the same point

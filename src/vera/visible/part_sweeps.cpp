@@ -20,8 +20,7 @@ const VisiblePieces& PartSweep::followed(std::uint32_t edge) {
     return found_;
 }
 
-VisiblePieces
-PartSweep::followed(std::size_t first, std::size_t last, const CancelFlag* cancel) {
+VisiblePieces PartSweep::followed(std::size_t first, std::size_t last, const CancelFlag* cancel) {
     clear();
     for (std::size_t i = first; i < last; ++i) {
         if (i % 16 == 0)

@@ -40,8 +40,8 @@ joined_points(std::vector<VisiblePieces>& parts, std::vector<std::uint32_t>& num
 
 /// Of each of the points its number among the others or, where it is none of these, how many these
 /// are and its own number.
-std::vector<std::uint32_t> numbers_behind(
-    std::vector<PackedPoint>& others, const std::vector<PackedPoint>& points) {
+std::vector<std::uint32_t>
+numbers_behind(std::vector<PackedPoint>& others, const std::vector<PackedPoint>& points) {
     const PointNumbers numbers(others, others.size());
     std::vector<std::uint32_t> result(points.size());
     parallel_ranges(points.size(), 4096, [&](std::size_t first, std::size_t last) {
@@ -113,19 +113,23 @@ merged(VisiblePieces before, const std::vector<std::uint8_t>& is_kept, VisiblePi
     };
     // Then the numbers in which the pieces have them, as if all had been followed.
     std::vector<std::uint32_t> numbers(found.points.size() + before.points.size(), none);
-    VisiblePieces result;
-    std::size_t count = 0;
+    std::uint32_t points = 0;
+    std::size_t pieces = 0;
     for_each_merged(before, is_kept, found, [&](const VisiblePieces& list, std::size_t i) {
-        ++count;
+        ++pieces;
         for (const std::uint32_t point : {list.pieces[i].from, list.pieces[i].to})
-            if (std::uint32_t& number = numbers[common_of(list, point)]; number == none) {
-                number = static_cast<std::uint32_t>(result.points.size());
-                result.points.push_back(list.points[point]);
-            }
+            if (std::uint32_t& number = numbers[common_of(list, point)]; number == none)
+                number = points++;
     });
-    free_room(before.points);
-    free_room(found.points);
-    result.pieces.reserve(count);
+    VisiblePieces result;
+    result.points.resize(points);
+    for (VisiblePieces* list : {&before, &found}) {
+        for (std::uint32_t i = 0; i < list->points.size(); ++i)
+            if (const std::uint32_t number = numbers[common_of(*list, i)]; number != none)
+                result.points[number] = list->points[i];
+        free_room(list->points);
+    }
+    result.pieces.reserve(pieces);
     for_each_merged(before, is_kept, found, [&](const VisiblePieces& list, std::size_t i) {
         VisiblePiece piece = list.pieces[i];
         piece.from = numbers[common_of(list, piece.from)];
