@@ -426,6 +426,35 @@ TEST(Cells, HoldListsInProportionToTheTrianglesHoweverManyLieOneBehindTheOther) 
     EXPECT_LE(cells_of(scene).triangles.size(), 64 * count + 65536);
 }
 
+TEST(Cells, ThatAreAskedForHoldAndAreBlockedByTheSameAsIfAllWere) {
+    std::size_t entries = 0;
+    for (std::uint64_t seed = 0; seed < 60 && !HasFailure(); ++seed) {
+        const ScreenScene scene = seed % 3 == 0 ? terrain(seed, 4 << (seed % 4))
+            : seed % 3 == 1 ? layers(seed, 1 + seed % 40, std::int32_t{1} << (1 + seed % 4))
+                            : scattered(seed, 10 * seed, screen_size / 30);
+        const std::vector<NearnessSlope> slopes = slopes_of(scene);
+        const Cells all = cells_of(scene, slopes);
+        // From none of them to all: mostly few, which most triangles touch none of.
+        std::mt19937_64 random(seed);
+        std::vector<std::uint8_t> is_asked(all.blocked.size());
+        for (std::uint8_t& asked : is_asked)
+            asked = random() % 60 < seed / 2 ? 1 : 0;
+        const Cells some = cells_of(scene, slopes, nullptr, [&](const Cells&) { return is_asked; });
+        ASSERT_EQ(some.blocked.size(), is_asked.size());
+        for (std::size_t cell = 0; cell < is_asked.size(); ++cell) {
+            if (is_asked[cell] == 0) {
+                EXPECT_TRUE(some.triangles_of(cell).empty()) << "seed " << seed;
+                continue;
+            }
+            EXPECT_TRUE(std::ranges::equal(some.triangles_of(cell), all.triangles_of(cell)))
+                << "seed " << seed;
+            EXPECT_EQ(some.blocked[cell], all.blocked[cell]) << "seed " << seed;
+            entries += some.triangles_of(cell).size();
+        }
+    }
+    EXPECT_GT(entries, 1000U);
+}
+
 TEST(Cells, AreBlockedByNothingNearerThanWhatCoversThem) {
     std::size_t blocked = 0;
     for (std::uint64_t seed = 0; seed < 40; ++seed) {
