@@ -284,11 +284,13 @@ VisibleMap map_of_file(const Request& request, const std::string& path, const Gr
     VisibleMap map;
     std::uint64_t number = 0;
     std::size_t rings = 0;
-    const auto on_grid = [](double pixels, std::uint32_t size) {
+    const auto on_grid = [&](double pixels, std::uint32_t size) {
         // Coordinates have some digits behind the point: as fractions of a step they are exact to
         // a billionth of a step.
         constexpr std::int64_t parts = 1'000'000'000;
         const double steps = pixels * screen_size / size;
+        if (!(steps >= 0 && steps <= screen_size))
+            throw std::runtime_error(path + " shows something beyond the picture");
         const double whole = std::floor(steps);
         return std::pair(
             static_cast<std::int32_t>(whole),
@@ -311,7 +313,7 @@ VisibleMap map_of_file(const Request& request, const std::string& path, const Gr
                 const auto [column, x_part] = on_grid(x, request.width);
                 const auto [row, y_part] = on_grid(y, request.height);
                 map.ring_vertices.push_back(static_cast<std::uint32_t>(map.vertices.size()));
-                map.vertices.push_back({{column, row}, x_part, y_part, 1'000'000'000});
+                map.vertices.push_back(RationalPoint{{column, row}, x_part, y_part, 1'000'000'000});
             }
             map.rings.push_back(ring);
         }

@@ -235,7 +235,7 @@ TEST(MapCheck, FindsARingBeforeTheBackground) {
     for (const ScreenPoint point :
          {ScreenPoint{0, 0}, {corner.x, 0}, corner, ScreenPoint{0, corner.y}}) {
         drawn.map.ring_vertices.push_back(static_cast<std::uint32_t>(drawn.map.vertices.size()));
-        drawn.map.vertices.push_back({point});
+        drawn.map.vertices.push_back(RationalPoint{point});
     }
     drawn.map.rings = {{0, 0, 0, 4}};
     const MapCheck check = drawn.check(1000);
@@ -266,8 +266,9 @@ TEST(MapCheck, FindsARingThatIsThereTwiceAndACornerThatHasMoved) {
     const std::size_t largest = largest_ring(right);
     // By twenty pixels: what is between the old and the new sides is shown wrongly.
     const std::uint32_t moved = right.ring_vertices[right.rings[largest].first];
-    RationalPoint& corner = drawn.map.vertices[moved];
+    RationalPoint corner = drawn.map.vertices[moved];
     corner.whole.x += screen_size / 512 * (corner.whole.x > screen_size / 2 ? -20 : 20);
+    drawn.map.vertices[moved] = corner;
     EXPECT_GT(drawn.check(30000).far, 0U);
 }
 

@@ -343,6 +343,38 @@ TEST(VisibleMap, HasTheRingsThatAPlainWalkFinds) {
     EXPECT_GT(rings, 1000U);
 }
 
+TEST(VisibleMap, OfWhatIsGivenAwayIsTheSameButForWhatIsNotAskedFor) {
+    std::size_t joined = 0;
+    for (std::uint64_t seed = 0; seed < 40 && !HasFailure(); ++seed) {
+        ScreenScene scene =
+            seed % 2 == 0 ? layers(seed, 30, 8) : tangle(seed, 20); // not cut: ways are joined
+        VisiblePieces pieces = cell_raster(scene);
+        const VisibleMap expected = visible_map(scene, pieces);
+        const RingDetail detail =
+            seed % 4 < 2 ? RingDetail::with_across : RingDetail::without_across;
+        const VisibleMap map = visible_map(std::move(scene), std::move(pieces), detail);
+        EXPECT_TRUE(map.vertices == expected.vertices) << seed;
+        EXPECT_EQ(map.regions, expected.regions) << seed;
+        EXPECT_EQ(map.ring_vertices, expected.ring_vertices) << seed;
+        EXPECT_EQ(map.joined, expected.joined) << seed;
+        EXPECT_EQ(map.joined_sides, expected.joined_sides) << seed;
+        ASSERT_EQ(map.rings.size(), expected.rings.size()) << seed;
+        for (std::size_t i = 0; i < map.rings.size(); ++i) {
+            EXPECT_EQ(map.rings[i].source, expected.rings[i].source) << seed;
+            EXPECT_EQ(map.rings[i].region, expected.rings[i].region) << seed;
+            EXPECT_EQ(map.rings[i].first, expected.rings[i].first) << seed;
+            EXPECT_EQ(map.rings[i].count, expected.rings[i].count) << seed;
+        }
+        if (detail == RingDetail::with_across)
+            EXPECT_EQ(map.ring_across, expected.ring_across) << seed;
+        else
+            EXPECT_TRUE(map.ring_across.empty()) << seed;
+        EXPECT_FALSE(expected.ring_across.empty()) << seed;
+        joined += map.joined;
+    }
+    EXPECT_GT(joined, 0U);
+}
+
 TEST(VisibleMap, OfNothingIsEmptyAndOfOneTriangleIsItself) {
     EXPECT_TRUE(visible_map({}, cell_raster({})).rings.empty());
     ScreenScene scene;
@@ -392,6 +424,35 @@ TEST(Cells, HoldListsInProportionToTheTrianglesHoweverManyLieOneBehindTheOther) 
         add_triangle(scene, {first, first + 1, first + 2}, i);
     }
     EXPECT_LE(cells_of(scene).triangles.size(), 64 * count + 65536);
+}
+
+TEST(Cells, ThatAreAskedForHoldAndAreBlockedByTheSameAsIfAllWere) {
+    std::size_t entries = 0;
+    for (std::uint64_t seed = 0; seed < 60 && !HasFailure(); ++seed) {
+        const ScreenScene scene = seed % 3 == 0 ? terrain(seed, 4 << (seed % 4))
+            : seed % 3 == 1 ? layers(seed, 1 + seed % 40, std::int32_t{1} << (1 + seed % 4))
+                            : scattered(seed, 10 * seed, screen_size / 30);
+        const std::vector<NearnessSlope> slopes = slopes_of(scene);
+        const Cells all = cells_of(scene, slopes);
+        // From none of them to all: mostly few, which most triangles touch none of.
+        std::mt19937_64 random(seed);
+        std::vector<std::uint8_t> is_asked(all.blocked.size());
+        for (std::uint8_t& asked : is_asked)
+            asked = random() % 60 < seed / 2 ? 1 : 0;
+        const Cells some = cells_of(scene, slopes, nullptr, [&](const Cells&) { return is_asked; });
+        ASSERT_EQ(some.blocked.size(), is_asked.size());
+        for (std::size_t cell = 0; cell < is_asked.size(); ++cell) {
+            if (is_asked[cell] == 0) {
+                EXPECT_TRUE(some.triangles_of(cell).empty()) << "seed " << seed;
+                continue;
+            }
+            EXPECT_TRUE(std::ranges::equal(some.triangles_of(cell), all.triangles_of(cell)))
+                << "seed " << seed;
+            EXPECT_EQ(some.blocked[cell], all.blocked[cell]) << "seed " << seed;
+            entries += some.triangles_of(cell).size();
+        }
+    }
+    EXPECT_GT(entries, 1000U);
 }
 
 TEST(Cells, AreBlockedByNothingNearerThanWhatCoversThem) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/base/available_memory.h"
 
+#include "vera/base/free_room.h"
+
 #include <algorithm>
 #include <atomic>
 #include <filesystem>
@@ -11,9 +13,6 @@
 #include <string_view>
 
 #include <sys/resource.h>
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
 #include <unistd.h>
 
 namespace vera {
@@ -72,13 +71,6 @@ std::optional<std::uint64_t> left_by_address_space() {
     statm >> pages;
     const std::uint64_t used = pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
     return limit.rlim_cur - std::min<std::uint64_t>(used, limit.rlim_cur);
-}
-
-/// Gives what was freed, but is kept to be used again, back to the system.
-void give_back_freed_memory() {
-#ifdef __GLIBC__
-    malloc_trim(0);
-#endif
 }
 
 } // namespace

@@ -14,4 +14,10 @@ void give_back_freed_blocks() {
 #endif
 }
 
+void give_back_freed_memory() {
+#ifdef __GLIBC__
+    malloc_trim(0);
+#endif
+}
+
 } // namespace vera

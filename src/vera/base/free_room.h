@@ -16,4 +16,8 @@ void free_room(std::vector<T>& vector) {
 /// others that are in use, for the next ones that fit.)
 void give_back_freed_blocks();
 
+/// Gives what was freed, but is kept to be used again, back to the system. For the moment after
+/// much was freed in small blocks, and before much is needed in large ones.
+void give_back_freed_memory();
+
 } // namespace vera

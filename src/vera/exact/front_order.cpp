@@ -67,7 +67,7 @@ private:
 NearnessSlope nearness_slope(const DepthPlane& plane) {
     const auto area = static_cast<double>(plane.area);
     return {
-        {static_cast<double>(plane.at.x), static_cast<double>(plane.at.y)},
+        plane.at,
         static_cast<double>(plane.nearness),
         static_cast<double>(plane.along_x) / area,
         static_cast<double>(plane.along_y) / area};

@@ -21,7 +21,7 @@ struct NearnessPlace {
 
 /// The nearness of a plane in double precision: at + along_x (x - place.x) + along_y (y - place.y).
 struct NearnessSlope {
-    NearnessPlace place;
+    ScreenPoint place;
     double nearness = 0;
     double along_x = 0;
     double along_y = 0;

@@ -108,7 +108,12 @@ CentralQueries::CentralQueries(
             whole_pieces(screen, stages.next(4), cancel, VisibilityEngine::cells, expect);
         penetrating_ += whole.left;
         borders_ += whole.pieces.pieces.size();
-        const VisibleMap map = visible_map(screen, std::move(whole.pieces), stages.next(1), cancel);
+        const VisibleMap map = visible_map(
+            std::move(screen),
+            std::move(whole.pieces),
+            RingDetail::with_across,
+            stages.next(1),
+            cancel);
         stages.next(2);
         faces_[face].locator = locator_of(kind, map, cancel);
         faces_[face].facets.reserve(map.regions.size());

@@ -6,8 +6,8 @@
 #include "vera/base/progress_part.h"
 #include "vera/visible/drawing_memory.h"
 #include "vera/visible/edge_sweep.h"
-#include "vera/visible/first_equal.h"
-#include "vera/visible/point_numbers.h"
+#include "vera/visible/part_sweeps.h"
+#include "vera/visible/piece_lists.h"
 #include "vera/visible/sheets.h"
 
 #include <algorithm>
@@ -172,40 +172,6 @@ CellRaster raster_of(
     return raster;
 }
 
-/// Lends one EdgeSweep to each thread that works.
-class EdgeSweeps {
-public:
-    explicit EdgeSweeps(const CellRaster& raster)
-        : raster_(raster) {}
-
-    std::unique_ptr<EdgeSweep> take() {
-        const std::lock_guard lock(mutex_);
-        if (idle_.empty())
-            return std::make_unique<EdgeSweep>(raster_);
-        std::unique_ptr<EdgeSweep> sweep = std::move(idle_.back());
-        idle_.pop_back();
-        return sweep;
-    }
-
-    void give_back(std::unique_ptr<EdgeSweep> sweep) {
-        const std::lock_guard lock(mutex_);
-        idle_.push_back(std::move(sweep));
-    }
-
-    /// Of all edges that were followed, when all have been given back.
-    CellCounts counts() const {
-        CellCounts counts;
-        for (const std::unique_ptr<EdgeSweep>& sweep : idle_)
-            counts.add_followed(sweep->counts());
-        return counts;
-    }
-
-private:
-    const CellRaster& raster_;
-    std::mutex mutex_;
-    std::vector<std::unique_ptr<EdgeSweep>> idle_;
-};
-
 /// Of the pieces before, those of edges from this one on.
 auto first_piece_of(const std::vector<VisiblePiece>& before, ScreenEdges::Edge edge) {
     return std::lower_bound(
@@ -273,13 +239,13 @@ struct Expected {
 /// From a few edges (systematic sampling, in proportion to their lengths).
 Expected expected(
     const CellRaster& raster, const std::vector<VisiblePiece>& before, const CancelFlag* cancel) {
-    EdgeSweeps sweeps(raster); // of its own: what they count is not counted
+    PartSweeps sweeps(raster); // of its own: what they count is not counted
     double distance = 0;
     const std::vector<MarkedEdge> marked = marked_edges(raster, distance);
     std::vector<Expected> found(marked.size());
     parallel_ranges(marked.size(), 16, [&](std::size_t first, std::size_t last) {
         stop_if_raised(cancel);
-        std::unique_ptr<EdgeSweep> sweep = sweeps.take();
+        std::unique_ptr<PartSweep> sweep = sweeps.take();
         for (std::size_t i = first; i < last; ++i) {
             const std::uint32_t edge = marked[i].edge;
             if (!raster.is_near_change.empty() && raster.is_near_change[edge] == 0) {
@@ -287,8 +253,7 @@ Expected expected(
                     static_cast<double>(count_pieces_of(before, raster.edges.edges[edge]));
                 continue;
             }
-            VisiblePieces pieces;
-            sweep->follow(edge, pieces);
+            const VisiblePieces& pieces = sweep->followed(edge);
             found[i] = {
                 static_cast<double>(pieces.pieces.size()),
                 static_cast<double>(pieces.penetrating.size())};
@@ -330,98 +295,24 @@ std::vector<VisiblePieces> follow_edges(
     const CancelFlag* cancel,
     CellCounts& counts) {
     constexpr std::size_t part = 4096; // edges
-    const std::vector<ScreenEdges::Edge>& edges = raster.edges.edges;
-    std::vector<VisiblePieces> parts((edges.size() + part - 1) / part);
-    EdgeSweeps sweeps(raster);
+    const std::size_t edges = raster.edges.edges.size();
+    std::vector<VisiblePieces> parts((edges + part - 1) / part);
+    PartSweeps sweeps(raster);
     check_memory(raster, before, expect, cancel);
     std::mutex mutex;
     std::size_t done = 0;
-    const auto follow_part = [&](std::size_t number, EdgeSweep& sweep) {
-        const std::size_t end = std::min(edges.size(), (number + 1) * part);
-        VisiblePieces found;
-        for (std::size_t i = number * part; i < end; ++i) {
-            if (i % 16 == 0)
-                stop_if_raised(cancel);
-            if (raster.is_near_change.empty() || raster.is_near_change[i] != 0)
-                sweep.follow(static_cast<std::uint32_t>(i), found);
-        }
-        // In as little room as it takes, with each point once, since all parts are there at a time.
-        VisiblePieces& result = parts[number];
-        result.pieces.reserve(found.pieces.size());
-        PointNumbers numbers(result.points, found.points.size());
-        for (VisiblePiece piece : found.pieces) {
-            piece.from = numbers.number(found.points[piece.from]);
-            piece.to = numbers.number(found.points[piece.to]);
-            result.pieces.push_back(piece);
-        }
-        result.points.shrink_to_fit();
-        result.unlit = std::move(found.unlit);
-        result.penetrating = std::move(found.penetrating);
-    };
     parallel_ranges(parts.size(), 1, [&](std::size_t first, std::size_t last) {
-        std::unique_ptr<EdgeSweep> sweep = sweeps.take();
+        std::unique_ptr<PartSweep> sweep = sweeps.take();
         for (std::size_t i = first; i < last; ++i)
-            follow_part(i, *sweep);
+            parts[i] = sweep->followed(i * part, std::min(edges, (i + 1) * part), cancel);
         sweeps.give_back(std::move(sweep));
         const std::lock_guard lock(mutex);
         done += last - first;
         if (progress)
             progress(static_cast<double>(done) / static_cast<double>(parts.size()));
     });
-    counts = sweeps.counts();
+    counts.add_followed(sweeps.counts());
     return parts;
-}
-
-/// The points of the parts, each once, in the order in which they come; numbers tells which of them
-/// each is, one part's behind the other's. Takes them out of the parts.
-std::vector<RationalPoint> joined_points(
-    std::vector<VisiblePieces>& parts,
-    std::span<const std::size_t> starts,
-    std::vector<std::uint32_t>& numbers) {
-    std::vector<const RationalPoint*> points(starts.back());
-    parallel_ranges(parts.size(), 1, [&](std::size_t part, std::size_t) {
-        for (std::size_t i = 0; i < parts[part].points.size(); ++i)
-            points[starts[part] + i] = &parts[part].points[i];
-    });
-    numbers = first_equal(
-        points.size(),
-        [&](std::size_t i) { return hash_of(*points[i]); },
-        [&](std::size_t i, std::size_t j) { return *points[i] == *points[j]; });
-    const std::vector<std::uint32_t> firsts = number_consecutively(numbers);
-    std::vector<RationalPoint> result(firsts.size());
-    parallel_ranges(firsts.size(), 4096, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i)
-            result[i] = *points[firsts[i]];
-    });
-    for (VisiblePieces& part : parts)
-        free_room(part.points);
-    return result;
-}
-
-VisiblePieces joined(std::vector<VisiblePieces> parts) {
-    std::vector<std::size_t> starts(parts.size() + 1); // of the parts' points
-    std::size_t pieces = 0;
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        starts[i + 1] = starts[i] + parts[i].points.size();
-        pieces += parts[i].pieces.size();
-    }
-    VisiblePieces result;
-    std::vector<std::uint32_t> numbers;
-    result.points = joined_points(parts, starts, numbers);
-    result.pieces.reserve(pieces);
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        const VisiblePieces part = std::move(parts[i]);
-        const auto number = [&](std::uint32_t point) { return numbers[starts[i] + point]; };
-        for (VisiblePiece piece : part.pieces) {
-            piece.from = number(piece.from);
-            piece.to = number(piece.to);
-            result.pieces.push_back(piece);
-        }
-        result.unlit.insert(result.unlit.end(), part.unlit.begin(), part.unlit.end());
-        result.penetrating.insert(
-            result.penetrating.end(), part.penetrating.begin(), part.penetrating.end());
-    }
-    return result;
 }
 
 /// Which of the pieces before are those of edges that are there still, and far from the change.
@@ -437,66 +328,6 @@ kept_pieces(const CellRaster& raster, const std::vector<VisiblePiece>& before) {
         is_kept[i] = is_there && raster.is_near_change[edge] == 0 ? 1 : 0;
     }
     return is_kept;
-}
-
-/// Of each point its number among the others, or PointNumbers::none.
-std::vector<std::uint32_t>
-numbers_among(const std::vector<RationalPoint>& points, std::vector<RationalPoint> others) {
-    const PointNumbers numbers(others, others.size());
-    std::vector<std::uint32_t> result(points.size());
-    parallel_ranges(points.size(), 4096, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i)
-            result[i] = numbers.find(points[i]);
-    });
-    return result;
-}
-
-/// The kept pieces of those before and the ones that were found, which are of other edges, as one
-/// list. All that takes long is done of the found ones alone.
-VisiblePieces
-merged(const VisiblePieces& before, const std::vector<std::uint8_t>& is_kept, VisiblePieces found) {
-    constexpr std::uint32_t none = PointNumbers::none;
-    const std::vector<std::uint32_t> among_found = numbers_among(before.points, found.points);
-    std::vector<std::uint32_t> of_before(before.points.size(), none);
-    std::vector<std::uint32_t> of_found(found.points.size(), none);
-    VisiblePieces result;
-    result.pieces.reserve(before.pieces.size() + found.pieces.size());
-    // In the order in which the pieces have them, as if all had been followed.
-    const auto numbered = [&](std::uint32_t& number, const RationalPoint& point) {
-        if (number == none) {
-            number = static_cast<std::uint32_t>(result.points.size());
-            result.points.push_back(point);
-        }
-        return number;
-    };
-    const auto add = [&](const VisiblePieces& from, std::size_t i, const auto& number_of) {
-        VisiblePiece piece = from.pieces[i];
-        piece.from = number_of(piece.from);
-        piece.to = number_of(piece.to);
-        result.pieces.push_back(piece);
-        if (!before.unlit.empty() || !found.unlit.empty())
-            result.unlit.push_back(from.unlit_beside(i));
-    };
-    std::size_t next = 0;
-    const auto add_found_before = [&](const ScreenEdges::Edge* edge) {
-        for (; next < found.pieces.size() && (edge == nullptr || found.pieces[next].edge < *edge);
-             ++next)
-            add(found, next, [&](std::uint32_t point) {
-                return numbered(of_found[point], found.points[point]);
-            });
-    };
-    for (std::size_t i = 0; i < before.pieces.size(); ++i) {
-        if (is_kept[i] == 0)
-            continue;
-        add_found_before(&before.pieces[i].edge);
-        add(before, i, [&](std::uint32_t point) {
-            const std::uint32_t same = among_found[point];
-            return numbered(same == none ? of_before[point] : of_found[same], before.points[point]);
-        });
-    }
-    add_found_before(nullptr);
-    result.penetrating = std::move(found.penetrating);
-    return result;
 }
 
 /// Counts what was done before edges were followed, by doing it once more.
@@ -537,8 +368,11 @@ VisiblePieces cell_raster(
     CellCounts* counts) {
     std::vector<VisiblePieces> parts;
     {
-        const CellRaster raster = raster_of(scene, nullptr, progress, cancel);
+        CellRaster raster = raster_of(scene, nullptr, progress, cancel);
         CellCounts counted;
+        if (counts != nullptr)
+            count_cells(raster, counted);
+        free_room(raster.cells.blocked); // which edges were compared with already
         parts = follow_edges(
             raster,
             {},
@@ -546,10 +380,8 @@ VisiblePieces cell_raster(
             progress_between(progress, part_of_preparation, 1),
             cancel,
             counted);
-        if (counts != nullptr) {
-            count_cells(raster, counted);
+        if (counts != nullptr)
             *counts = counted;
-        }
     }
     VisiblePieces result = joined(std::move(parts));
     sort_pairs(result.penetrating);
@@ -574,7 +406,8 @@ VisiblePieces cell_raster_after(
     std::vector<VisiblePieces> parts;
     std::vector<std::uint8_t> is_kept;
     {
-        const CellRaster raster = raster_of(scene, &change, progress, cancel);
+        CellRaster raster = raster_of(scene, &change, progress, cancel);
+        free_room(raster.cells.blocked);
         if (raster.may_be_unlit())
             for (const VisiblePiece& piece : before.pieces)
                 before.unlit.push_back({unlit(piece.left), unlit(piece.right)});
@@ -588,8 +421,9 @@ VisiblePieces cell_raster_after(
             cancel,
             uncounted);
     }
-    VisiblePieces result = merged(before, is_kept, joined(std::move(parts)));
-    for (const auto& [a, b] : before.penetrating)
+    const auto penetrating = std::move(before.penetrating);
+    VisiblePieces result = merged(std::move(before), is_kept, joined(std::move(parts)));
+    for (const auto& [a, b] : penetrating)
         if (is_changed[a] == 0 && is_changed[b] == 0)
             result.penetrating.emplace_back(a, b);
     sort_pairs(result.penetrating);

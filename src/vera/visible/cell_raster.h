@@ -2,7 +2,7 @@
 #pragma once
 
 #include "vera/base/parallel.h"
-#include "vera/exact/screen_point.h"
+#include "vera/exact/packed_point.h"
 #include "vera/visible/cell_counts.h"
 #include "vera/visible/edges.h"
 #include "vera/visible/screen_scene.h"
@@ -34,9 +34,9 @@ struct UnlitBeside {
 
 /// What is seen of a scene: all pieces of edges that part what is seen, each once.
 struct VisiblePieces {
-    std::vector<RationalPoint> points; ///< at which pieces end, each once
-    std::vector<VisiblePiece> pieces;  ///< by their edges' vertices
-    std::vector<UnlitBeside> unlit;    ///< of each piece; or empty: all lights reach everything
+    std::vector<PackedPoint> points;  ///< at which pieces end, each once
+    std::vector<VisiblePiece> pieces; ///< by their edges' vertices
+    std::vector<UnlitBeside> unlit;   ///< of each piece; or empty: all lights reach everything
     /// Triangles that pass through each other where both are seen, in ascending order, each pair
     /// once. Where there are any, the pieces need not close to outlines: see cut_penetrations().
     std::vector<std::pair<std::uint32_t, std::uint32_t>> penetrating;

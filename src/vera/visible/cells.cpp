@@ -74,6 +74,9 @@ private:
     template <typename Visit>
     void for_each_entry(const Cells& cells, const Visit& visit) const;
 
+    void ask(const Cells& cells);
+    template <typename IsAsked>
+    void find_reaches(const IsAsked& is_asked);
     void block(Cells& cells) const;
     std::uint64_t count(Cells& cells);
 
@@ -81,9 +84,10 @@ private:
     std::span<const NearnessSlope> slopes_;
     const CancelFlag* cancel_;
     const AskedCells& asked_;
-    std::vector<std::uint8_t> is_asked_; ///< of cells; empty: all are
-    std::vector<double> nearness_;       ///< of triangles, for hiding
-    std::vector<Reach> reaches_;         ///< of groups
+    std::vector<std::uint8_t> is_asked_;      ///< of cells; empty: all are
+    std::vector<std::uint8_t> is_near_asked_; ///< of triangles, whether they may touch such a cell
+    std::vector<double> nearness_;            ///< of triangles, for hiding
+    std::vector<Reach> reaches_;              ///< of groups, of the triangles near cells asked for
 };
 
 CellLists::CellLists(
@@ -95,6 +99,7 @@ CellLists::CellLists(
     , slopes_(slopes)
     , cancel_(cancel)
     , asked_(asked)
+    , is_near_asked_(scene.triangles.size())
     , nearness_(scene.triangles.size())
     , reaches_((scene.triangles.size() + group - 1) / group) {
     parallel_ranges(reaches_.size(), 64, [&](std::size_t first, std::size_t last) {
@@ -102,11 +107,6 @@ CellLists::CellLists(
             const auto corners = corners_of(scene_, scene_.triangles[i]);
             nearness_[i] = nearest_for_hiding(
                 slopes_[i], std::array{corners[0].point, corners[1].point, corners[2].point});
-            Reach& reach = reaches_[i / group];
-            for (const ScreenVertex& corner : corners) {
-                reach.least = std::min(reach.least, corner.point.y);
-                reach.most = std::max(reach.most, corner.point.y);
-            }
         }
     });
 }
@@ -127,6 +127,8 @@ void CellLists::for_each_row(
                 continue;
             for (std::size_t i = in * group; i < std::min((in + 1) * group, nearness_.size());
                  ++i) {
+                if (is_near_asked_[i] == 0)
+                    continue;
                 const auto corners = corners_of(scene_, scene_.triangles[i]);
                 if (!does_matter(scene_.triangles[i], corners))
                     continue;
@@ -149,6 +151,56 @@ void CellLists::for_each_entry(const Cells& cells, const Visit& visit) const {
                     nearness_[i] >= cells.blocked[cell])
                     visit(cell, i);
         });
+}
+
+/// Of the groups, and notes which triangles is_asked(corners) is true of.
+template <typename IsAsked>
+void CellLists::find_reaches(const IsAsked& is_asked) {
+    parallel_ranges(reaches_.size(), 64, [&](std::size_t first, std::size_t last) {
+        std::fill(reaches_.data() + first, reaches_.data() + last, Reach{});
+        for (std::size_t i = first * group; i < std::min(last * group, nearness_.size()); ++i) {
+            const auto corners = corners_of(scene_, scene_.triangles[i]);
+            is_near_asked_[i] = is_asked(corners) ? 1 : 0;
+            if (is_near_asked_[i] == 0)
+                continue;
+            Reach& reach = reaches_[i / group];
+            for (const ScreenVertex& corner : corners) {
+                reach.least = std::min(reach.least, corner.point.y);
+                reach.most = std::max(reach.most, corner.point.y);
+            }
+        }
+    });
+}
+
+/// Finds which cells are asked for, and which triangles matter therefore: where few are, most need
+/// not be followed from row to row.
+void CellLists::ask(const Cells& cells) {
+    if (!asked_)
+        return find_reaches([](const auto&) { return true; });
+    is_asked_ = asked_(cells);
+    // Row by row, how many of the row are asked for before each of its cells, and before its end.
+    const auto per_side = static_cast<std::size_t>(cells.per_side);
+    std::vector<std::uint32_t> before(per_side * (per_side + 1));
+    for (std::size_t row = 0; row < per_side; ++row)
+        for (std::size_t column = 0; column < per_side; ++column) {
+            const std::size_t place = row * (per_side + 1) + column;
+            before[place + 1] = before[place] + is_asked_[row * per_side + column];
+        }
+    find_reaches([&](const std::array<ScreenVertex, 3>& corners) {
+        const auto [left, right] =
+            std::minmax({corners[0].point.x, corners[1].point.x, corners[2].point.x});
+        const auto [low, high] =
+            std::minmax({corners[0].point.y, corners[1].point.y, corners[2].point.y});
+        // RowsOfCells may tell what is a step beside the triangle.
+        const auto first = static_cast<std::size_t>(cells.cell_of(std::max(left - 2, 0)));
+        const auto last = static_cast<std::size_t>(cells.cell_of(right + 2));
+        for (std::int32_t row = cells.cell_of(low); row <= cells.cell_of(high); ++row) {
+            const std::size_t begin = static_cast<std::size_t>(row) * (per_side + 1);
+            if (before[begin + first] != before[begin + last + 1])
+                return true;
+        }
+        return false;
+    });
 }
 
 /// Fills in what blocks each cell.
@@ -176,7 +228,7 @@ std::uint64_t CellLists::count(Cells& cells) {
         static_cast<std::size_t>(cells.per_side) * static_cast<std::size_t>(cells.per_side);
     cells.blocked.assign(number, -1);
     cells.starts.assign(number + 2, 0);
-    is_asked_ = asked_ ? asked_(cells) : std::vector<std::uint8_t>();
+    ask(cells);
     block(cells);
     for (std::size_t cell = 0; cell < is_asked_.size(); ++cell)
         if (is_asked_[cell] == 0)

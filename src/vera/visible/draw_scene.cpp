@@ -253,13 +253,17 @@ std::size_t count_seen_faces(const VisibleMap& map) {
 }
 
 /// What is seen as regions. The pieces are kept where lines are drawn of them, and the screen too.
+/// In style ids nothing asks what is seen across a ring, but for the check.
 VisibleMap map_of(const Request& request, SeenScene& seen, const Progress& progress) {
     if (has_lines(request.settings.style))
         return visible_map(seen.screen, seen.whole.pieces, progress, request.cancel);
-    VisibleMap map =
-        visible_map(seen.screen, std::move(seen.whole.pieces), progress, request.cancel);
-    seen.screen = {};
-    return map;
+    const bool asks_across = !request.is_in_numbers() || request.settings.check;
+    return visible_map(
+        std::move(seen.screen),
+        std::move(seen.whole.pieces),
+        asks_across ? RingDetail::with_across : RingDetail::without_across,
+        progress,
+        request.cancel);
 }
 
 DrawnScene drawn_scene(Request request) {

@@ -30,7 +30,7 @@ ScreenCounts counts_of(const ScreenScene& scene) {
 }
 
 double raster_bytes(const ScreenCounts& counts) {
-    constexpr double per_surface = 290; // with 1.5 to 6 cells, of which shadows ask for none
+    constexpr double per_surface = 230; // with 1.5 to 6 cells, of which shadows ask for none
     constexpr double per_shadow = 170;
     constexpr double per_edge = 34;
     constexpr double per_vertex = 8;
@@ -43,7 +43,7 @@ double raster_bytes(const ScreenCounts& counts) {
 }
 
 double piece_bytes(double pieces, double pairs) {
-    constexpr double per_piece = 130;
+    constexpr double per_piece = 95; // with a point, in parts and as one list
     constexpr double per_pair = 24;
     return per_piece * pieces + per_pair * pairs;
 }
@@ -53,13 +53,13 @@ double drawing_bytes(double pieces, std::size_t surfaces, DrawingStyle style) {
     double per_surface = 0;
     switch (style) {
     case DrawingStyle::flat:
-        per_piece = 750; // of curved surfaces, whose borders are arcs
+        per_piece = 720; // of curved surfaces, whose borders are arcs
         break;
     case DrawingStyle::shaded:
         per_piece = 800;
         break;
     case DrawingStyle::ids:
-        per_piece = 130; // as areas that share their corners
+        per_piece = 80; // as areas that share their corners
         break;
     case DrawingStyle::lines:
         per_piece = 450;

@@ -340,7 +340,7 @@ BorderRing DrawnBorders::ring(const VisibleMap& map, const VisibleMap::Ring& rin
 DrawnBorders straight_borders(const VisibleMap& map, const PictureSettings& picture) {
     DrawnBorders borders;
     borders.places.reserve(map.vertices.size());
-    for (const RationalPoint& vertex : map.vertices)
+    for (const PackedPoint& vertex : map.vertices)
         borders.places.push_back(in_pixels(picture, vertex));
     borders.side_curves.assign(map.ring_vertices.size(), no_curve);
     return borders;

@@ -60,7 +60,7 @@ LineRules::LineRules(
     const Facets& facets,
     const DrawnFaces& faces,
     const ScreenScene& screen,
-    std::span<const RationalPoint> points)
+    std::span<const PackedPoint> points)
     : scene_(scene)
     , camera_(camera)
     , facets_(facets)

@@ -27,7 +27,7 @@ public:
         const Facets& facets,
         const DrawnFaces& faces,
         const ScreenScene& screen,
-        std::span<const RationalPoint> points);
+        std::span<const PackedPoint> points);
 
     /// Of a piece that is seen, between two of the points; nothing where the frame cuts a surface,
     /// or one goes on smoothly.
@@ -63,7 +63,7 @@ private:
     const Facets& facets_;
     const DrawnFaces& faces_;
     const ScreenScene& screen_;
-    std::span<const RationalPoint> points_;
+    std::span<const PackedPoint> points_;
     ScreenEdges edges_;
     EdgeTriangles triangles_;
 };

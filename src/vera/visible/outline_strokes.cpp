@@ -31,7 +31,7 @@ namespace {
 /// The lines of a drawing in parts, and the points between them.
 struct LineParts {
     std::vector<LinePart> parts;
-    std::vector<RationalPoint> points;
+    std::vector<PackedPoint> points;
 };
 
 /// A straight way that joins others round what is seen of a face.
@@ -382,7 +382,7 @@ void add_strokes(
     next_stage(1);
     std::vector<DrawingPoint> places;
     places.reserve(lines.points.size());
-    for (const RationalPoint& point : lines.points)
+    for (const PackedPoint& point : lines.points)
         places.push_back(in_pixels(sources.picture, point));
     leave_out_second_lines(
         sources.facets,

@@ -4,6 +4,8 @@
 #include "vera/base/free_room.h"
 #include "vera/base/long_loop.h"
 #include "vera/base/progress_part.h"
+#include "vera/visible/traced_rings.h"
+#include "vera/visible/ways.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,39 +21,6 @@ namespace {
 constexpr std::uint32_t none = ~std::uint32_t{0};
 
 constexpr std::size_t block = 4096; ///< vertices or pieces that a thread takes at a time
-
-/// The two ways along a piece: 2 i with, 2 i + 1 against its edge.
-class Ways {
-public:
-    Ways(const ScreenScene& scene, const std::vector<VisiblePiece>& pieces)
-        : region(2 * pieces.size(), no_region)
-        , scene_(scene)
-        , pieces_(pieces) {}
-
-    std::size_t count() const { return region.size(); }
-
-    /// Where the way begins.
-    std::uint32_t from(std::uint32_t way) const {
-        const VisiblePiece& piece = pieces_[way / 2];
-        return way % 2 == 0 ? piece.from : piece.to;
-    }
-
-    std::uint32_t to(std::uint32_t way) const { return from(way ^ 1U); }
-
-    /// Along the whole edge.
-    ScreenStep direction(std::uint32_t way) const {
-        const ScreenEdges::Edge& edge = pieces_[way / 2].edge;
-        const ScreenPoint begin = scene_.vertices[edge.begin].point;
-        const ScreenPoint end = scene_.vertices[edge.end].point;
-        return way % 2 == 0 ? step(begin, end) : step(end, begin);
-    }
-
-    std::vector<std::uint32_t> region; ///< seen on the left
-
-private:
-    const ScreenScene& scene_;
-    const std::vector<VisiblePiece>& pieces_;
-};
 
 /// Whether a lies in the half turn that begins with the direction to the right.
 bool is_upper(ScreenStep a) {
@@ -280,207 +249,59 @@ Ways ways_of(
     return ways;
 }
 
-bool is_straight_on(ScreenStep a, ScreenStep b) {
-    return cross(a, b) == 0;
-}
+/// What a map is made of and, where that need not be kept, the same to be taken apart.
+struct MapOrigin {
+    const ScreenScene& scene;
+    ScreenScene* given_scene;
+    const VisiblePieces& pieces;
+    VisiblePieces* given_pieces;
 
-/// The ways beside which something is seen, in parts that have no region in common; those of one
-/// part in ascending order.
-struct PartedWays {
-    std::vector<std::uint32_t> ways;
-    std::vector<std::size_t> starts; ///< of the parts, and the end
+    std::vector<PackedPoint> points() const {
+        if (given_pieces != nullptr)
+            return std::move(given_pieces->points);
+        return pieces.points;
+    }
 
-    std::span<const std::uint32_t> of(std::size_t part) const {
-        return std::span(ways).subspan(starts[part], starts[part + 1] - starts[part]);
+    /// When what is beside each way is known: where vertices are is still asked.
+    void forget_triangles() const {
+        if (given_scene != nullptr)
+            free_room(given_scene->triangles);
+        if (given_pieces != nullptr)
+            free_room(given_pieces->unlit);
+    }
+
+    void forget_pieces() const {
+        if (given_scene != nullptr)
+            free_room(given_scene->vertices);
+        if (given_pieces != nullptr)
+            free_room(given_pieces->pieces);
     }
 };
 
-/// Of each region the part of all ways, so many of which are one, in which its first one is.
-std::vector<std::uint32_t>
-parts_of_regions(const Ways& ways, std::size_t regions, std::size_t ways_of_a_part) {
-    std::vector<std::uint32_t> parts(regions, none);
-    for (std::size_t way = 0; way < ways.count(); ++way)
-        if (const std::uint32_t region = ways.region[way];
-            region != no_region && parts[region] == none)
-            parts[region] = static_cast<std::uint32_t>(way / ways_of_a_part);
-    return parts;
-}
-
-/// By where each region begins, as ways of one are near each other in memory. Threads share the
-/// blocks of ways.
-PartedWays parted_by_region(const Ways& ways, std::size_t regions, const CancelFlag* cancel) {
-    constexpr std::size_t most_parts = 1024;
-    constexpr std::size_t least_of_a_part = 4096;
-    constexpr std::size_t ways_of_a_block = 65536;
-    const std::size_t ways_of_a_part = std::max(least_of_a_part, ways.count() / most_parts + 1);
-    const std::size_t parts = ways.count() / ways_of_a_part + 1;
-    const std::size_t blocks = (ways.count() + ways_of_a_block - 1) / ways_of_a_block;
-    const std::vector<std::uint32_t> part_of = parts_of_regions(ways, regions, ways_of_a_part);
-    const auto for_each_of_block = [&](std::size_t number, const auto& visit) {
-        stop_if_raised(cancel);
-        const std::size_t end = std::min(ways.count(), (number + 1) * ways_of_a_block);
-        for (std::size_t way = number * ways_of_a_block; way < end; ++way)
-            if (ways.region[way] != no_region)
-                visit(way, part_of[ways.region[way]]);
-    };
-    // By part and block within it, so that the ways of a part stay in their order.
-    std::vector<std::size_t> starts(parts * blocks + 1);
-    parallel_ranges(blocks, 1, [&](std::size_t number, std::size_t) {
-        for_each_of_block(
-            number, [&](std::size_t, std::size_t part) { ++starts[part * blocks + number + 1]; });
-    });
-    std::partial_sum(starts.begin(), starts.end(), starts.begin());
-    PartedWays parted;
-    for (std::size_t part = 0; part <= parts; ++part)
-        parted.starts.push_back(starts[part * blocks]);
-    parted.ways.resize(starts.back());
-    parallel_ranges(blocks, 1, [&](std::size_t number, std::size_t) {
-        for_each_of_block(number, [&](std::size_t way, std::size_t part) {
-            parted.ways[starts[part * blocks + number]++] = static_cast<std::uint32_t>(way);
-        });
-    });
-    return parted;
-}
-
-/// The rings of some regions, as in a VisibleMap that has no others.
-struct TracedRings {
-    std::vector<VisibleMap::Ring> rings;
-    std::vector<std::uint32_t> ring_vertices;
-    std::vector<std::uint32_t> ring_across;
-    std::vector<std::size_t> joined_sides;
-    std::vector<std::uint32_t> places; ///< of the rings in the whole map
-
-    void add(std::uint32_t vertex, std::uint32_t across) {
-        ring_vertices.push_back(vertex);
-        ring_across.push_back(across);
-    }
-};
-
-/// The ring along the way, whose ways are done then. next[i] is the way that follows way i.
-void trace_ring(
-    std::uint32_t first,
-    const Ways& ways,
-    std::span<const std::uint32_t> next,
-    std::span<std::uint8_t> done,
-    TracedRings& traced) {
-    std::uint32_t way = first;
-    do {
-        done[way] = 1;
-        const std::uint32_t after = next[way];
-        const bool is_joined = ways.to(way) != ways.from(after);
-        if (is_joined) {
-            traced.joined_sides.push_back(traced.ring_vertices.size());
-            traced.add(ways.to(way), no_region);
-        }
-        if (is_joined || !is_straight_on(ways.direction(way), ways.direction(after))
-            || ways.region[way ^ 1U] != ways.region[after ^ 1U])
-            traced.add(ways.from(after), ways.region[after ^ 1U]);
-        way = after;
-    } while (way != first);
-}
-
-/// The rings of the parts of ways, which no two have in common.
-std::vector<TracedRings> traced_rings(
-    const Ways& ways,
-    const PartedWays& parted,
-    std::span<const std::uint32_t> next,
-    const Progress& progress,
-    const CancelFlag* cancel,
-    std::span<const VisibleMap::Region> regions) {
-    std::vector<std::uint8_t> done(ways.count());
-    std::vector<TracedRings> parts(parted.starts.size() - 1);
-    long_parallel_loop(parts.size(), progress, cancel, 1, [&](std::size_t part) {
-        TracedRings traced;
-        const std::span<const std::uint32_t> own = parted.of(part);
-        traced.ring_vertices.reserve(own.size()); // hardly fewer
-        traced.ring_across.reserve(own.size());
-        const LongLoop loop(own.size(), {}, cancel);
-        for (std::size_t i = 0; i < own.size(); ++i) {
-            loop.turn(i);
-            if (done[own[i]] != 0)
-                continue;
-            const std::uint32_t region = ways.region[own[i]];
-            const std::size_t first = traced.ring_vertices.size();
-            trace_ring(own[i], ways, next, done, traced);
-            traced.rings.push_back(
-                {regions[region].source, region, first, traced.ring_vertices.size() - first});
-        }
-        parts[part] = std::move(traced);
-    });
-    return parts;
-}
-
-/// The rings round what is seen of each region, and its regions, into the map, whose vertices are
-/// there already. In parts, since what they are found with takes as much room as they.
-std::vector<TracedRings> find_rings(
-    const ScreenScene& scene,
-    const VisiblePieces& pieces,
+std::vector<TracedRings> found_rings(
+    const MapOrigin& origin,
+    RingDetail detail,
     const Progress& progress,
     const CancelFlag* cancel,
     VisibleMap& map) {
     StageProgress stages(progress, 3);
-    const Ways ways = ways_of(scene, pieces, stages.next(1), cancel, map);
-    const std::vector<std::uint32_t> next = following(ways, stages.next(1), cancel, map);
-    const Progress of_rings = stages.next(1);
-    return traced_rings(
-        ways,
-        parted_by_region(ways, map.regions.size(), cancel),
-        next,
-        of_rings,
-        cancel,
-        map.regions);
+    const Ways ways = ways_of(origin.scene, origin.pieces, stages.next(1), cancel, map);
+    origin.forget_triangles();
+    std::vector<std::uint32_t> next = following(ways, stages.next(1), cancel, map);
+    return traced_rings(ways, map.regions.size(), detail, std::move(next), stages.next(1), cancel);
 }
 
-/// Puts the rings of the parts into the map, by region, and notes their places. No two parts have
-/// rings of one region.
-void place_rings(std::vector<TracedRings>& parts, VisibleMap& map) {
-    std::vector<std::uint32_t> next(map.regions.size() + 1); // place of a ring of each region
-    for (const TracedRings& part : parts)
-        for (const VisibleMap::Ring& ring : part.rings)
-            ++next[ring.region + std::size_t{1}];
-    std::partial_sum(next.begin(), next.end(), next.begin());
-    map.rings.resize(next.back());
-    parallel_ranges(parts.size(), 1, [&](std::size_t number, std::size_t) {
-        TracedRings& part = parts[number];
-        for (const VisibleMap::Ring& ring : part.rings) {
-            part.places.push_back(next[ring.region]++);
-            map.rings[part.places.back()] = ring;
-        }
-    });
-    std::size_t first = 0;
-    for (VisibleMap::Ring& ring : map.rings) {
-        ring.first = first;
-        first += ring.count;
-    }
-}
-
-void join_rings(std::vector<TracedRings> parts, VisibleMap& map) {
-    std::size_t vertices = 0;
-    for (const TracedRings& part : parts)
-        vertices += part.ring_vertices.size();
-    place_rings(parts, map);
-    map.ring_vertices.resize(vertices);
-    map.ring_across.resize(vertices);
-    parallel_ranges(parts.size(), 1, [&](std::size_t number, std::size_t) {
-        TracedRings& part = parts[number];
-        for (std::size_t i = 0; i < part.rings.size(); ++i) {
-            const auto [from, count] = std::pair(part.rings[i].first, part.rings[i].count);
-            const std::size_t to = map.rings[part.places[i]].first;
-            std::copy_n(part.ring_vertices.data() + from, count, map.ring_vertices.data() + to);
-            std::copy_n(part.ring_across.data() + from, count, map.ring_across.data() + to);
-        }
-        free_room(part.ring_vertices);
-        free_room(part.ring_across);
-    });
-    for (const TracedRings& part : parts)
-        for (const std::size_t side : part.joined_sides) {
-            const auto behind = std::ranges::upper_bound(
-                part.rings, side, {}, &VisibleMap::Ring::first); // the ring after the side's
-            const auto ring = static_cast<std::size_t>(behind - part.rings.begin()) - 1;
-            map.joined_sides.push_back(
-                map.rings[part.places[ring]].first + side - part.rings[ring].first);
-        }
-    std::ranges::sort(map.joined_sides);
+VisibleMap made_map(
+    const MapOrigin& origin,
+    RingDetail detail,
+    const Progress& progress,
+    const CancelFlag* cancel) {
+    VisibleMap map;
+    map.vertices = origin.points();
+    std::vector<TracedRings> parts = found_rings(origin, detail, progress, cancel, map);
+    origin.forget_pieces();
+    join_rings(std::move(parts), detail, map);
+    return map;
 }
 
 } // namespace
@@ -490,25 +311,18 @@ VisibleMap visible_map(
     const VisiblePieces& pieces,
     const Progress& progress,
     const CancelFlag* cancel) {
-    VisibleMap map;
-    map.vertices = pieces.points;
-    join_rings(find_rings(scene, pieces, progress, cancel, map), map);
-    return map;
+    return made_map({scene, nullptr, pieces, nullptr}, RingDetail::with_across, progress, cancel);
 }
 
 VisibleMap visible_map(
-    const ScreenScene& scene,
+    ScreenScene&& scene,
     VisiblePieces&& pieces,
+    RingDetail detail,
     const Progress& progress,
     const CancelFlag* cancel) {
-    VisiblePieces taken = std::move(pieces);
-    VisibleMap map;
-    map.vertices = std::move(taken.points);
-    std::vector<TracedRings> parts = find_rings(scene, taken, progress, cancel, map);
-    free_room(taken.pieces);
-    free_room(taken.unlit);
-    join_rings(std::move(parts), map);
-    return map;
+    ScreenScene own_scene = std::move(scene);
+    VisiblePieces own_pieces = std::move(pieces);
+    return made_map({own_scene, &own_scene, own_pieces, &own_pieces}, detail, progress, cancel);
 }
 
 double doubled_area(const VisibleMap& map, const VisibleMap::Ring& ring) {

@@ -36,11 +36,11 @@ struct VisibleMap {
         std::size_t count = 0;
     };
 
-    std::vector<RationalPoint> vertices;      ///< the points of the pieces
+    std::vector<PackedPoint> vertices;        ///< the points of the pieces
     std::vector<Region> regions;              ///< in ascending order
     std::vector<Ring> rings;                  ///< by region
     std::vector<std::uint32_t> ring_vertices; ///< one ring's behind the other's
-    std::vector<std::uint32_t> ring_across;   ///< regions, or no_region
+    std::vector<std::uint32_t> ring_across;   ///< regions, or no_region; or empty: see RingDetail
     /// How often ways round what is seen had to be joined by a straight one. None where nothing was
     /// cut; else two surfaces may part what is seen along lines a step from each other, between
     /// which neither is seen for sure.
@@ -65,10 +65,14 @@ VisibleMap visible_map(
     const Progress& progress = {},
     const CancelFlag* cancel = nullptr);
 
-/// The same where the pieces are not needed any more: takes less memory.
+/// Whether a map tells what is seen across its rings: where nobody asks, ring_across stays empty.
+enum class RingDetail : std::uint8_t { with_across, without_across };
+
+/// The same where scene and pieces are not needed any more: takes half the memory.
 VisibleMap visible_map(
-    const ScreenScene& scene,
+    ScreenScene&& scene,
     VisiblePieces&& pieces,
+    RingDetail detail,
     const Progress& progress = {},
     const CancelFlag* cancel = nullptr);
 

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// What each thread follows edges with, part by part.
+#pragma once
+
+#include "vera/base/parallel.h"
+#include "vera/visible/cell_counts.h"
+#include "vera/visible/cell_raster.h"
+#include "vera/visible/edge_sweep.h"
+#include "vera/visible/point_numbers.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+namespace vera {
+
+/// Follows parts of the edges, one after the other in the same room.
+class PartSweep {
+public:
+    explicit PartSweep(const CellRaster& raster)
+        : raster_(raster)
+        , sweep_(raster)
+        , numbers_(points_, 0) {}
+
+    /// What is found of one edge, each piece with points of its own; until another is followed.
+    const VisiblePieces& followed(std::uint32_t edge);
+
+    /// What is found of the edges from first to before last that are near what was changed, each
+    /// point once. In as little room as it takes, since all parts are there at a time. Throws
+    /// Cancelled.
+    VisiblePieces followed(std::size_t first, std::size_t last, const CancelFlag* cancel);
+
+    /// Of all edges that it followed.
+    CellCounts counts() const { return sweep_.counts(); }
+
+private:
+    void clear();
+
+    const CellRaster& raster_;
+    EdgeSweep sweep_;
+    VisiblePieces found_;
+    std::vector<PackedPoint> points_; ///< those of found_, each once
+    PointNumbers numbers_;
+};
+
+/// Lends one PartSweep to each thread that works.
+class PartSweeps {
+public:
+    explicit PartSweeps(const CellRaster& raster)
+        : raster_(raster) {}
+
+    std::unique_ptr<PartSweep> take();
+    void give_back(std::unique_ptr<PartSweep> sweep);
+
+    /// Of all edges that were followed, when all have been given back.
+    CellCounts counts() const;
+
+private:
+    const CellRaster& raster_;
+    std::mutex mutex_;
+    std::vector<std::unique_ptr<PartSweep>> idle_;
+};
+
+} // namespace vera

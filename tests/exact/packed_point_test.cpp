@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vera/exact/packed_point.h"
+
+#include <algorithm>
+#include <array>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace vera {
+namespace {
+
+/// Few coordinates, the least and the largest among them, so that many points are equal and some
+/// denominators as long as any.
+std::vector<RationalPoint> crossings(std::size_t rounds) {
+    constexpr std::array<std::int32_t, 6> numbers = {
+        0, 1, 3, screen_size / 2, screen_size - 1, screen_size};
+    std::mt19937_64 random(1);
+    const auto any = [&] {
+        const std::int32_t x = numbers[random() % numbers.size()];
+        const std::int32_t y = numbers[random() % numbers.size()];
+        return ScreenPoint{x, y};
+    };
+    std::vector<RationalPoint> points = {{}, {{screen_size, screen_size}}};
+    for (std::size_t i = 0; i < rounds; ++i) {
+        const ScreenPoint a = any();
+        const ScreenPoint b = any();
+        const ScreenPoint p = any();
+        const ScreenPoint q = any();
+        if (cross(step(a, b), step(p, q)) == 0)
+            continue;
+        const SegmentPlace place = crossing_place(a, b, p, q);
+        if (place.numerator >= 0 && place.numerator <= place.denominator)
+            points.push_back(point_at(a, b, place));
+    }
+    return points;
+}
+
+TEST(PackedPoint, IsUnpackedAsItWas) {
+    std::int64_t longest = 0;
+    for (const RationalPoint& point : crossings(20'000)) {
+        const PackedPoint packed = point;
+        ASSERT_EQ(RationalPoint(packed), point);
+        EXPECT_EQ(packed.x(), point.x());
+        EXPECT_EQ(packed.y(), point.y());
+        longest = std::max(longest, point.denominator);
+    }
+    EXPECT_GT(longest, std::int64_t{1} << 43U);
+    EXPECT_EQ(sizeof(PackedPoint), 24U);
+    EXPECT_EQ(RationalPoint(PackedPoint{}), RationalPoint{});
+}
+
+TEST(PackedPoint, EqualsAndHashesAsThePointsDo) {
+    const std::vector<RationalPoint> points = crossings(600);
+    std::size_t equal = 0;
+    for (std::size_t i = 0; i < points.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j) {
+            const PackedPoint a = points[i];
+            const PackedPoint b = points[j];
+            ASSERT_EQ(a == b, points[i] == points[j]);
+            ASSERT_EQ(hash_of(a) == hash_of(b), points[i] == points[j]); // of so few points
+            equal += a == b ? 1 : 0;
+        }
+    EXPECT_GT(equal, 100U);
+}
+
+} // namespace
+} // namespace vera

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vera/visible/piece_lists.h"
+
+#include <algorithm>
+#include <random>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+namespace vera {
+namespace {
+
+bool are_same(const VisiblePiece& a, const VisiblePiece& b) {
+    return a.from == b.from && a.to == b.to && a.edge == b.edge && a.left == b.left
+        && a.right == b.right;
+}
+
+void expect_same(const VisiblePieces& a, const VisiblePieces& b, std::uint32_t seed) {
+    EXPECT_TRUE(a.points == b.points) << "seed " << seed;
+    EXPECT_TRUE(std::ranges::equal(a.pieces, b.pieces, are_same)) << "seed " << seed;
+    EXPECT_TRUE(std::ranges::equal(
+        a.unlit,
+        b.unlit,
+        [](const UnlitBeside& one, const UnlitBeside& other) {
+            return one.left == other.left && one.right == other.right;
+        }))
+        << "seed " << seed;
+    EXPECT_EQ(a.penetrating, b.penetrating) << "seed " << seed;
+}
+
+/// Numbers the piece's ends by looking through all points.
+void add_plainly(VisiblePieces& all, const VisiblePieces& from, std::size_t i, bool with_lights) {
+    VisiblePiece piece = from.pieces[i];
+    for (std::uint32_t* end : {&piece.from, &piece.to}) {
+        const PackedPoint point = from.points[*end];
+        *end =
+            static_cast<std::uint32_t>(std::ranges::find(all.points, point) - all.points.begin());
+        if (*end == all.points.size())
+            all.points.push_back(point);
+    }
+    all.pieces.push_back(piece);
+    if (with_lights)
+        all.unlit.push_back(from.unlit_beside(i));
+}
+
+/// Pieces of the edges from `first` to before `last`, between few points, of which some are not
+/// whole ones. Each point is there once, in the order of the pieces.
+VisiblePieces
+some_pieces(std::mt19937& random, std::uint32_t first, std::uint32_t last, bool with_lights) {
+    const auto point = [&] {
+        RationalPoint some;
+        some.whole.x = static_cast<std::int32_t>(random() % 3);
+        some.whole.y = static_cast<std::int32_t>(random() % 2);
+        some.denominator = 1 + static_cast<std::int64_t>(random() % 2);
+        some.x_numerator = some.denominator - 1;
+        return some;
+    };
+    VisiblePieces plain;
+    VisiblePieces all;
+    for (std::uint32_t edge = first; edge < last; ++edge)
+        for (std::size_t count = random() % 3; count > 0; --count) {
+            const auto number = static_cast<std::uint32_t>(plain.points.size());
+            plain.points.push_back(point());
+            plain.points.push_back(point());
+            const auto left = static_cast<std::uint32_t>(random() % 4);
+            plain.pieces.push_back({number, number + 1, {edge / 2, edge}, left, 7});
+            if (with_lights)
+                plain.unlit.push_back({static_cast<LightSet>(random() % 3), 0});
+            add_plainly(all, plain, plain.pieces.size() - 1, with_lights);
+            if (random() % 4 == 0)
+                all.penetrating.emplace_back(left, edge);
+        }
+    return all;
+}
+
+TEST(PieceLists, PartsAreJoinedAsOneAfterTheOtherIsAdded) {
+    std::size_t common = 0;
+    for (std::uint32_t seed = 0; seed < 200; ++seed) {
+        std::mt19937 random(seed);
+        const bool with_lights = seed % 2 == 1;
+        std::vector<VisiblePieces> parts;
+        VisiblePieces expected;
+        std::size_t points = 0;
+        for (std::uint32_t i = 0; i < seed % 6; ++i) {
+            parts.push_back(some_pieces(random, 5 * i, 5 * (i + 1), with_lights));
+            const VisiblePieces& part = parts.back();
+            points += part.points.size();
+            for (std::size_t j = 0; j < part.pieces.size(); ++j)
+                add_plainly(expected, part, j, with_lights);
+            expected.penetrating.insert(
+                expected.penetrating.end(), part.penetrating.begin(), part.penetrating.end());
+        }
+        common += points - expected.points.size();
+        expect_same(joined(std::move(parts)), expected, seed);
+    }
+    EXPECT_GT(common, 1000U);
+}
+
+TEST(PieceLists, KeptAndFoundPiecesAreMergedAsAllByTheirEdges) {
+    std::size_t kept = 0;
+    std::size_t both = 0;
+    for (std::uint32_t seed = 0; seed < 300; ++seed) {
+        std::mt19937 random(seed);
+        const bool has_lights_before = seed % 3 == 1;
+        const bool has_lights_found = seed % 2 == 1;
+        const VisiblePieces before = some_pieces(random, 0, seed % 40, has_lights_before);
+        const VisiblePieces any = some_pieces(random, 0, seed % 40, has_lights_found);
+        // Each edge has either what was there before, or what was found.
+        const auto is_near = [&](std::uint32_t edge) {
+            return edge * 0x9e3779b9U >> 28U < seed % 16;
+        };
+        std::vector<std::uint8_t> is_kept;
+        std::vector<std::pair<const VisiblePieces*, std::size_t>> order;
+        for (std::size_t i = 0; i < before.pieces.size(); ++i) {
+            is_kept.push_back(is_near(before.pieces[i].edge.end) ? 0 : 1);
+            if (is_kept.back() != 0)
+                order.emplace_back(&before, i);
+        }
+        VisiblePieces found;
+        for (std::size_t i = 0; i < any.pieces.size(); ++i)
+            if (is_near(any.pieces[i].edge.end))
+                add_plainly(found, any, i, has_lights_found);
+        found.penetrating = any.penetrating;
+        for (std::size_t i = 0; i < found.pieces.size(); ++i)
+            order.emplace_back(&found, i);
+        std::ranges::stable_sort(
+            order, {}, [](const auto& piece) { return piece.first->pieces[piece.second].edge; });
+        VisiblePieces expected;
+        expected.penetrating = found.penetrating;
+        for (const auto& [list, i] : order)
+            add_plainly(expected, *list, i, !before.unlit.empty() || !found.unlit.empty());
+        expect_same(merged(before, is_kept, found), expected, seed);
+        kept += static_cast<std::size_t>(std::ranges::count(is_kept, 1));
+        both += found.pieces.empty() || found.pieces.size() == order.size() ? 0 : 1;
+    }
+    EXPECT_GT(kept, 1000U);
+    EXPECT_GT(both, 100U);
+}
+
+} // namespace
+} // namespace vera
