@@ -185,9 +185,6 @@ HWY_INLINE void fetch(const Tree& tree, const TreeChild& child) {
     fetch(tree.nodes.data(), tree.leaves.data(), Tree::leaf_rows * sizeof(float), child);
 }
 
-/// Where a beam has taken so many steps, what it meets is smaller than the space between its rays.
-constexpr std::uint32_t most_steps = 48;
-
 /// Follows the beams down from the root, a step each in turn; returns the numbers, as bits, of
 /// those that have taken too many to go on like this.
 template <typename Tree>
@@ -199,7 +196,7 @@ HWY_NOINLINE std::uint32_t follow_beams(const Search<Tree>& search, std::size_t 
         for (std::uint32_t rest = under_way; rest != 0; rest &= rest - 1) {
             const auto number = static_cast<std::size_t>(std::countr_zero(rest));
             BeamWalk& beam = search.space.beams[number];
-            if (HWY_UNLIKELY(++beam.steps > most_steps)) {
+            if (HWY_UNLIKELY(++beam.steps > Tree::most_beam_steps)) {
                 fanned_out |= std::uint32_t{1} << number;
                 under_way &= ~(std::uint32_t{1} << number);
                 continue;

@@ -39,9 +39,9 @@ constexpr float rest_rounding = 12 * 0x1p-24F; // times (T + 2 r) (r + 16 u T).
 constexpr float far_rounding = 16 * 0x1p-24F;
 //   Of one that is passed, l is longer, and is off by more; but not by so much more that it would
 //   look shorter than r by more than this.
-//   m is off by 9 u (|m| + r), the square root by 4 u r beside what its argument is, and the sum of
-//   both by u of itself: as |d| is at least 1, together by less than
-constexpr float t_rounding = 16 * 0x1p-24F; // times |m| + r.
+//   m is off by 10 u (|m| + r), the square root by 4 u r beside what its argument is, and the sum of
+//   both by 2 u of itself: as |d| is at least 1, together by less than
+constexpr float t_rounding = 20 * 0x1p-24F; // times |m| + r.
 
 // What is too small for a usual number loses digits, or all: squares may be off by this as well.
 constexpr float square_underflow = 0x1p-110F;
@@ -95,22 +95,28 @@ HWY_INLINE Meeting<D> meeting_sphere(
         hn::Mul(hn::Set(d, rest_rounding), hn::Add(far_off, hn::Add(radius, radius))),
         hn::MulAdd(hn::Set(d, far_rounding), far_off, radius),
         hn::Set(d, square_underflow));
-    // Half of the chord is between these. Where the square of the first is negative, it is none,
-    // and so is all that follows from it: no comparison with it is true.
-    const V longest = hn::Sqrt(hn::Mul(hn::Add(rest, error), rays.per_square));
-    const V shortest =
-        hn::Sqrt(hn::Mul(hn::Max(hn::Sub(rest, error), hn::Zero(d)), rays.per_square));
     const V slack = hn::Mul(hn::Set(d, t_rounding), hn::Add(middle_size, radius));
     const V before = hn::Sub(middle, slack);
     const V behind = hn::Add(middle, slack);
+    // Most often none is met between t_min and the limit, which is told without a root: half of the
+    // chord reaches from the middle to there.
+    const V most = hn::Mul(hn::Add(rest, error), rays.per_square);
+    const V to_range = hn::Max(
+        hn::Max(hn::Sub(before, limit), hn::Sub(rays.t_min, behind)), hn::Zero(d));
+    const auto may = hn::Ge(most, hn::Mul(to_range, to_range));
+    if (hn::AllFalse(d, may))
+        return {may, may, middle, middle};
+    // Half of the chord is between these; where it is not even met, the first is none.
+    const V longest = hn::Sqrt(most);
+    const V shortest =
+        hn::Sqrt(hn::Mul(hn::Max(hn::Sub(rest, error), hn::Zero(d)), rays.per_square));
     const V enter_last = hn::Sub(behind, shortest);
-    const V leave_last = hn::Add(behind, longest);
     // The ray surely starts behind where it would enter.
     const auto inside = hn::Lt(enter_last, rays.t_min);
     const V near = hn::IfThenElse(inside, hn::Add(before, shortest), hn::Sub(before, longest));
-    const V far = hn::IfThenElse(inside, leave_last, enter_last);
+    const V far = hn::IfThenElse(inside, hn::Add(behind, longest), enter_last);
     return {
-        hn::And(hn::Ge(leave_last, rays.t_min), hn::Le(near, limit)),
+        hn::And(may, hn::Le(near, limit)),
         hn::And(hn::Gt(rest, error), hn::And(hn::Gt(near, rays.t_min), hn::Lt(far, limit))),
         near,
         far};
