@@ -50,8 +50,10 @@ struct RayGroup {
     GroupRow<float> per_t_scale; ///< 1 / t_scale
     GroupRow<float> inverse[3];  ///< of the direction; large but finite where that is 0
     GroupRow<float> largest;     ///< the direction's largest coordinate, without its sign
-    GroupRow<float> per_square;  ///< 1 / the square of the direction; only for spheres
-    GroupRow<float> limit;       ///< what lies behind this t does not count any more
+    // Only for spheres:
+    GroupRow<float> per_square; ///< 1 / the square of the direction's length
+    GroupRow<float> length;     ///< at least that length, and hardly more
+    GroupRow<float> limit;      ///< what lies behind this t does not count any more
     /// Of what is surely met and nearest so far: a t before which it is not; and where it stands.
     GroupRow<float> near;
     GroupRow<std::uint32_t> leaf;     ///< TreeChild::first() of its leaf

@@ -40,8 +40,9 @@ HWY_INLINE void fetch_rays(std::span<const IndexRay> rays, std::size_t first) {
 }
 
 /// Numbers of single rays, octant by octant, and how many streams there are.
+template <typename Tree>
 struct Gathered {
-    std::array<std::array<std::uint16_t, rays_at_once>, octant_count> of_octant;
+    std::array<std::array<std::uint16_t, rays_at_once<Tree>>, octant_count> of_octant;
     std::array<std::size_t, octant_count> counts = {};
     std::size_t streams = 0;
 };
@@ -54,7 +55,7 @@ HWY_INLINE std::size_t first_ray(const Search<Tree>& search, const RayGroup& gro
 
 /// Adds the group's rays to those that go through the tree in streams from the root on.
 template <typename Tree>
-HWY_INLINE void gather(const Search<Tree>& search, RayGroup& group, Gathered& gathered) {
+HWY_INLINE void gather(const Search<Tree>& search, RayGroup& group, Gathered<Tree>& gathered) {
     const std::size_t first = first_ray(search, group);
     write_singles(group, &search.space.singles[first]);
     add_numbers(search, group, &search.space.singles[first]);
@@ -74,7 +75,7 @@ HWY_INLINE void gather(const Search<Tree>& search, RayGroup& group, Gathered& ga
 /// Makes a stream of the rays of a beam, which goes on where the beam is.
 template <typename Tree>
 HWY_NOINLINE void
-go_on_as_stream(const Search<Tree>& search, const BeamWalk& beam, Gathered& gathered) {
+go_on_as_stream(const Search<Tree>& search, const BeamWalk& beam, Gathered<Tree>& gathered) {
     RayGroup& group = *beam.group;
     const std::size_t first = first_ray(search, group);
     write_singles(group, &search.space.singles[first]);
@@ -93,7 +94,7 @@ go_on_as_stream(const Search<Tree>& search, const BeamWalk& beam, Gathered& gath
 
 /// Sets the rays that were gathered on their way, and follows all streams.
 template <bool any, typename Tree>
-HWY_INLINE void follow_gathered(const Search<Tree>& search, Gathered& gathered) {
+HWY_INLINE void follow_gathered(const Search<Tree>& search, Gathered<Tree>& gathered) {
     for (std::size_t octant = 0; octant < octant_count; ++octant)
         for (std::size_t i = 0; i < gathered.counts[octant]; i += stream_size) {
             RayStream& stream = start_stream(
@@ -117,7 +118,7 @@ follow_to_nearest(const Search<Tree>& search, std::span<const IndexRay> rays) {
     space.doubtful.clear();
     std::size_t groups = 0;
     std::size_t beams = 0;
-    Gathered gathered;
+    Gathered<Tree> gathered;
     const auto follow = [&]() HWY_ATTR {
         for (std::uint32_t rest = follow_beams(search, beams); rest != 0; rest &= rest - 1)
             go_on_as_stream(
@@ -146,7 +147,7 @@ follow_to_nearest(const Search<Tree>& search, std::span<const IndexRay> rays) {
 template <typename Tree>
 HWY_INLINE std::size_t follow_to_any(const Search<Tree>& search, std::span<const IndexRay> rays) {
     std::size_t groups = 0;
-    Gathered gathered;
+    Gathered<Tree> gathered;
     for (std::size_t first = 0; first < rays.size(); first += group_size) {
         RayGroup& group = search.space.groups[groups++];
         fetch_rays(rays, first + group_size);
@@ -275,8 +276,8 @@ HWY_INLINE void search_nearest_in(
         }
         return;
     }
-    for (std::size_t first = 0; first < rays.size(); first += rays_at_once) {
-        const std::size_t count = std::min(rays_at_once, rays.size() - first);
+    for (std::size_t first = 0; first < rays.size(); first += rays_at_once<Tree>) {
+        const std::size_t count = std::min(rays_at_once<Tree>, rays.size() - first);
         const std::size_t groups = follow_to_nearest(search, rays.subspan(first, count));
         take_hits(search, groups, hits.subspan(first, count));
     }
@@ -302,8 +303,8 @@ HWY_INLINE void search_any_in(
         }
         return;
     }
-    for (std::size_t first = 0; first < rays.size(); first += rays_at_once) {
-        const std::size_t count = std::min(rays_at_once, rays.size() - first);
+    for (std::size_t first = 0; first < rays.size(); first += rays_at_once<Tree>) {
+        const std::size_t count = std::min(rays_at_once<Tree>, rays.size() - first);
         const std::size_t groups = follow_to_any(search, rays.subspan(first, count));
         take_met(search, groups, met.subspan(first, count));
     }

@@ -42,7 +42,8 @@ struct alignas(64) SingleRay {
     std::uint32_t leaf;
     std::uint32_t place;
     float direction_size;
-    float per_square; ///< 1 / the square of the direction; only for spheres
+    float per_square;
+    float length;
     std::uint32_t lane;
     RayGroup* group; ///< where it stands among others
     const IndexRay* given;

@@ -29,14 +29,16 @@ namespace vera::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Groups that are searched for together, so that they can take steps in turn.
-constexpr std::size_t groups_at_once = 16;
-constexpr std::size_t rays_at_once = groups_at_once * group_size;
+/// The rays of so many groups are searched for together, so that their streams are full, and take
+/// steps in turn; and at most of so many, whatever the tree.
+template <typename Tree>
+constexpr std::size_t rays_at_once = Tree::groups_at_once* group_size;
+constexpr std::size_t most_groups = 32;
 
 constexpr std::size_t beams_at_once = 8;
 
 /// As many as there are groups, or octants with a stream that is not full.
-constexpr std::size_t streams_at_once = groups_at_once + octant_count;
+constexpr std::size_t streams_at_once = most_groups + octant_count;
 
 /// So few rays of a group do not make a beam.
 constexpr int few_rays = 6;
@@ -52,9 +54,9 @@ struct Doubtful {
 
 /// What a search holds; each thread keeps one.
 struct Workspace {
-    std::array<RayGroup, groups_at_once> groups;
+    std::array<RayGroup, most_groups> groups;
     std::array<BeamWalk, beams_at_once> beams;
-    std::array<SingleRay, rays_at_once> singles;
+    std::array<SingleRay, most_groups * group_size> singles;
     std::size_t depth = 0;          ///< of a stack
     std::vector<TreeChild> waiting; ///< a stack for each beam; the first is that of one ray as well
     std::array<RayStream, streams_at_once> streams;

@@ -15,8 +15,7 @@ namespace vera::detail {
 struct MeshTree : FloatTree {
     using Hit = MeshHit;
     static constexpr std::size_t leaf_rows = 10;
-    /// Where a beam has taken so many steps, what it meets is smaller than the space between its
-    /// rays.
+    static constexpr std::size_t groups_at_once = 16;
     static constexpr std::uint32_t most_beam_steps = 48;
 
     MeshSpans mesh;

@@ -29,19 +29,22 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 // Bounds of what is rounded: see sphere_crossing.h for how it is computed. Spheres and rays are
 // exact. With u = 2^-24, the way f to the center and its length F, the direction d, of which the
-// largest coordinate is between 1 and 2, and T = |m| D, with D at least |d|: F is at most T + r
-// where the sphere is met.
+// largest coordinate is between 1 and 2, and T = |m| |d|: F is at most T + r where the sphere is
+// met.
 //   f is off by u F, and m d by as much of its own, so that l is off by 3 u F across d. Along d it
 //   is off by what m is, 9 u F at most, which adds its square to the square of l: (9 u F)^2. So r^2
 //   - |l|^2 is off by no more than 2 r (3 u F) + (3 u F)^2 + (9 u F)^2 + 5 u r^2 of spheres that
 //   are met, which is less than
-constexpr float rest_rounding = 12 * 0x1p-24F; // times (T + 2 r) (r + 16 u T).
-constexpr float far_rounding = 16 * 0x1p-24F;
+constexpr float rest_rounding = 6.5F * 0x1p-24F; // times (T + 2 r) (r + 32 u T).
+constexpr float far_rounding = 32 * 0x1p-24F;
 //   Of one that is passed, l is longer, and is off by more; but not by so much more that it would
 //   look shorter than r by more than this.
-//   m is off by 10 u (|m| + r), the square root by 4 u r beside what its argument is, and the sum of
-//   both by 2 u of itself: as |d| is at least 1, together by less than
-constexpr float t_rounding = 20 * 0x1p-24F; // times |m| + r.
+//   m is off by 10 u |m| + 4 u r / |d|, the square root by 4 u r / |d| beside what its argument is,
+//   and the sum of both, and its square, by 2 u of themselves: together by less than
+constexpr float t_rounding = 14 * 0x1p-24F; // times |m| + r / |d|.
+
+/// More than what a length is rounded down by, as a part of it.
+constexpr float length_rounding = 0x1p-20F;
 
 // What is too small for a usual number loses digits, or all: squares may be off by this as well.
 constexpr float square_underflow = 0x1p-110F;
@@ -65,8 +68,8 @@ elements_at(const Search<SphereTree>&, D d, const float* rows, std::size_t size,
 template <typename V>
 struct RaysAtSpheres {
     Vector<V> direction;
-    V per_square; ///< 1 / the square of the direction, rounded
-    V size;       ///< at least the direction's length
+    V per_square; ///< 1 / the square of the direction's length, rounded
+    V length;     ///< at least that length, and hardly more
     V t_min;
 };
 
@@ -90,19 +93,21 @@ HWY_INLINE Meeting<D> meeting_sphere(
         hn::NegMulAdd(
             across.y, across.y, hn::NegMulAdd(across.z, across.z, hn::Mul(radius, radius))));
     const V middle_size = hn::Abs(middle);
-    const V far_off = hn::Mul(middle_size, rays.size);
+    const V far_off = hn::Mul(middle_size, rays.length);
     const V error = hn::MulAdd(
         hn::Mul(hn::Set(d, rest_rounding), hn::Add(far_off, hn::Add(radius, radius))),
         hn::MulAdd(hn::Set(d, far_rounding), far_off, radius),
         hn::Set(d, square_underflow));
-    const V slack = hn::Mul(hn::Set(d, t_rounding), hn::Add(middle_size, radius));
+    const V slack = hn::Mul(
+        hn::Set(d, t_rounding),
+        hn::MulAdd(radius, hn::Mul(rays.length, rays.per_square), middle_size));
     const V before = hn::Sub(middle, slack);
     const V behind = hn::Add(middle, slack);
     // Most often none is met between t_min and the limit, which is told without a root: half of the
     // chord reaches from the middle to there.
     const V most = hn::Mul(hn::Add(rest, error), rays.per_square);
-    const V to_range = hn::Max(
-        hn::Max(hn::Sub(before, limit), hn::Sub(rays.t_min, behind)), hn::Zero(d));
+    const V to_range =
+        hn::Max(hn::Max(hn::Sub(before, limit), hn::Sub(rays.t_min, behind)), hn::Zero(d));
     const auto may = hn::Ge(most, hn::Mul(to_range, to_range));
     if (hn::AllFalse(d, may))
         return {may, may, middle, middle};
@@ -130,7 +135,7 @@ meeting_single(const Spheres<hn::Vec<LeafLanes>>& spheres, const SingleRay& ray)
         d,
         {same_for_all(d, ray.direction),
          hn::Set(d, ray.per_square),
-         hn::Set(d, ray.direction_size),
+         hn::Set(d, ray.length),
          hn::Set(d, ray.t_min)},
         difference(spheres.center, same_for_all(d, ray.origin)),
         spheres.radius,
@@ -195,7 +200,7 @@ rays_at(const Search<SphereTree>&, const RayGroup& group, std::size_t i) {
          hn::Load(d, group.direction[1].data() + i),
          hn::Load(d, group.direction[2].data() + i)},
         hn::Load(d, group.per_square.data() + i),
-        hn::Set(d, group.direction_size),
+        hn::Load(d, group.length.data() + i),
         hn::Load(d, group.t_min.data() + i)};
 }
 
@@ -218,20 +223,26 @@ HWY_INLINE void add_rows(const Search<SphereTree>&, RayGroup& group) {
             hn::Load(d, group.direction[0].data() + i),
             hn::Load(d, group.direction[1].data() + i),
             hn::Load(d, group.direction[2].data() + i)};
+        const auto square = product(direction, direction);
+        hn::Store(hn::Div(hn::Set(d, 1), square), d, group.per_square.data() + i);
         hn::Store(
-            hn::Div(hn::Set(d, 1), product(direction, direction)), d, group.per_square.data() + i);
+            hn::Mul(hn::Sqrt(square), hn::Set(d, 1 + length_rounding)), d, group.length.data() + i);
     }
 }
 
 HWY_INLINE void add_numbers(const Search<SphereTree>&, const RayGroup& group, SingleRay* rays) {
-    for (std::size_t lane = 0; lane < group_size; ++lane)
+    for (std::size_t lane = 0; lane < group_size; ++lane) {
         rays[lane].per_square = group.per_square[lane];
+        rays[lane].length = group.length[lane];
+    }
 }
 
 HWY_INLINE void add_numbers(const Search<SphereTree>&, SingleRay& ray) {
     const float* const direction = ray.direction;
-    ray.per_square = 1
-        / (direction[0] * direction[0] + direction[1] * direction[1] + direction[2] * direction[2]);
+    const float square =
+        direction[0] * direction[0] + direction[1] * direction[1] + direction[2] * direction[2];
+    ray.per_square = 1 / square;
+    ray.length = std::sqrt(square) * (1 + length_rounding);
 }
 
 } // namespace vera::detail::HWY_NAMESPACE

@@ -16,6 +16,7 @@ namespace vera::detail {
 struct SphereTree : FloatTree {
     using Hit = SphereHit;
     static constexpr std::size_t leaf_rows = 5;
+    static constexpr std::size_t groups_at_once = 32;
     static constexpr std::uint32_t most_beam_steps = 400;
 
     SphereSpan spheres;
