@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "sample_spheres.h"
+#include "sphere_brute_force.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,6 +23,8 @@ namespace vera {
 namespace {
 
 using testing::ball_of_balls;
+using testing::brute_force_answer;
+using testing::brute_force_answers;
 using testing::close_shells;
 using testing::coherent_mesh_rays;
 using testing::mixed_spheres;
@@ -33,48 +36,11 @@ using testing::rays_of_lights;
 using testing::SampleMesh;
 using testing::SampleSpheres;
 using testing::scaled_and_shifted;
+using testing::SphereAnswer;
 using testing::with_broken_numbers;
 
 constexpr IndexQuality both_qualities[] = {IndexQuality::usual, IndexQuality::high};
 constexpr float infinity = std::numeric_limits<float>::infinity();
-
-/// All that a SphereIndex can be asked about a ray.
-struct Answer {
-    SphereHit nearest;
-    bool met = false;
-    std::vector<SphereHit> all;
-};
-
-/// The answer of one who asks every sphere, in no clever way.
-Answer brute_force_answer(SphereSpan spheres, const IndexRay& ray) {
-    Answer answer;
-    if (!detail::is_followed(ray))
-        return answer;
-    detail::SphereDecider decider(spheres, ray);
-    std::vector<std::pair<double, SphereHit>> hits;
-    for (std::uint32_t i = 0; i < spheres.size(); ++i) {
-        if (!detail::is_sphere(spheres[i]))
-            continue;
-        decider.consider(i);
-        decider.for_each_hit(i, [&](const SphereHit& hit, double t) { hits.emplace_back(t, hit); });
-        answer.met = answer.met || decider.meets(i);
-    }
-    std::sort(hits.begin(), hits.end(), [](const auto& one, const auto& other) {
-        return one.first < other.first
-            || (one.first == other.first && one.second.sphere < other.second.sphere);
-    });
-    answer.nearest = decider.hit();
-    for (const auto& [t, hit] : hits)
-        answer.all.push_back(hit);
-    return answer;
-}
-
-std::vector<Answer> brute_force_answers(SphereSpan spheres, const std::vector<IndexRay>& rays) {
-    std::vector<Answer> answers;
-    for (const IndexRay& ray : rays)
-        answers.push_back(brute_force_answer(spheres, ray));
-    return answers;
-}
 
 std::string told(const SphereHit& hit) {
     std::ostringstream text;
@@ -108,7 +74,7 @@ bool same_bits(const std::vector<SphereHit>& a, const std::vector<SphereHit>& b)
 void expect_answers_one_by_one(
     const SphereIndex& index,
     const std::vector<IndexRay>& rays,
-    const std::vector<Answer>& expected,
+    const std::vector<SphereAnswer>& expected,
     const std::string& what) {
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const SphereHit nearest = index.nearest_hit(rays[i]);
@@ -129,7 +95,7 @@ void expect_answers_one_by_one(
 void expect_answers_by_spans(
     const SphereIndex& index,
     const std::vector<IndexRay>& rays,
-    const std::vector<Answer>& expected,
+    const std::vector<SphereAnswer>& expected,
     std::size_t span_size,
     const std::string& what) {
     std::vector<SphereHit> hits(rays.size());
@@ -155,7 +121,7 @@ void expect_answers_by_spans(
 void expect_answers(
     const SphereIndex& index,
     const std::vector<IndexRay>& rays,
-    const std::vector<Answer>& expected,
+    const std::vector<SphereAnswer>& expected,
     const std::string& what) {
     expect_answers_one_by_one(index, rays, expected, what);
     for (const std::size_t span_size : {1U, 15U, 16U, 17U, 33U, 257U, 1000U}) {
@@ -175,7 +141,7 @@ std::vector<IndexRay> rays_of_all_sorts(const SampleSpheres& spheres, std::uint6
         rays.push_back(ray);
     const std::size_t uncut = rays.size();
     for (std::size_t i = 0; i < uncut; i += 7) {
-        const Answer answer = brute_force_answer(spheres, rays[i]);
+        const SphereAnswer answer = brute_force_answer(spheres, rays[i]);
         if (!answer.met)
             continue;
         for (const SphereHit& hit : {answer.nearest, answer.all[answer.all.size() / 2]})
@@ -402,7 +368,7 @@ TEST(SphereIndex, OfNoSpheresIsMetByNoRay) {
     for (const IndexQuality quality : both_qualities) {
         const SphereIndex index({}, quality);
         const std::vector<IndexRay> rays(20, {.direction = {1, 0, 0}});
-        expect_answers(index, rays, std::vector<Answer>(20), "empty");
+        expect_answers(index, rays, std::vector<SphereAnswer>(20), "empty");
         index.nearest_hits({}, {});
         index.meet_any({}, {});
         EXPECT_EQ(index.statistics().spheres, 0U);
