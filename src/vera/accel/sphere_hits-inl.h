@@ -13,6 +13,7 @@
 #include "vera/accel/float_leaves-inl.h"
 #include "vera/accel/float_workspace-inl.h"
 #include "vera/accel/sphere_tree.h"
+#include "vera/base/check.h"
 
 #include <algorithm>
 #include <array>
@@ -102,6 +103,7 @@ sure_hit(const Search<SphereTree>& search, const SingleRay& ray, float per_t_sca
          {ray.direction[0], ray.direction[1], ray.direction[2]}});
     const auto crossings =
         sphere_crossings(scaled, {numbers[0], numbers[size], numbers[2 * size], numbers[3 * size]});
+    VERA_CHECK(crossings.has_value());
     const double t = crossings->enter >= scaled.t_min ? crossings->enter : crossings->leave;
     return sphere_hit(
         t * static_cast<double>(per_t_scale), std::bit_cast<std::uint32_t>(numbers[4 * size]));
