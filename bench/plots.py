@@ -22,9 +22,11 @@ DOCUMENT = ROOT / "docs/performance.md"
 IMAGES = ROOT / "docs/images"
 WIDTH = 1080
 
-NAMES = {"mesh": "MeshIndex", "mesh_high": "MeshIndex, high quality", "bvh": "boxes of the scene",
+NAMES = {"mesh": "MeshIndex", "mesh_high": "MeshIndex, high quality", "spheres": "SphereIndex",
+         "spheres_high": "SphereIndex, high quality", "bvh": "boxes of the scene",
          "grid": "grids of the scene", "Embree medium": "Embree"}
-COLOURS = {"mesh": BLUE, "mesh_high": GREEN, "bvh": SKY, "grid": GOLD, "Embree medium": GREY}
+COLOURS = {"mesh": BLUE, "mesh_high": GREEN, "spheres": BLUE, "spheres_high": GREEN, "bvh": SKY, "grid": GOLD,
+           "Embree medium": GREY}
 RAYS = {"primary": "view rays", "shadow": "shadow rays", "mirror": "mirrored rays", "diffuse": "diffuse rays",
         "shuffled": "diffuse rays, shuffled", "ao": "any hit of diffuse rays"}
 
@@ -343,7 +345,7 @@ def plots(results):
             one, "Meshes: rays a second by Embree's, one thread", ["triangles"], ["mesh", "mesh_high", "bvh"])
         drawn["bench-rays-round"] = draw_rays(
             one, "Spheres and rotational shapes: rays a second by Embree's, one thread",
-            ["spheres", "rotational shapes"], ["bvh", "grid"])
+            ["spheres", "rotational shapes"], ["spheres", "bvh", "grid"])
         drawn["bench-builds"] = draw_builds(one)
     for family in results.growth["measurements"][0]["families"] if results.growth else []:
         drawn[f"bench-growth-{family['name']}"] = draw_growth(family)

@@ -275,7 +275,12 @@ SceneMeasurement measured_scene(const BenchScene& made, const MeasurementSetting
     result.triangles_for_embree = floats.triangles.size();
     const bool one_mesh =
         scene.geometry.items.size() == 1 && scene.geometry.items.front().kind == ItemKind::mesh;
-    const OurIndexes indexes = built_indexes({scene, floats, one_mesh}, settings, result);
+    const bool only_spheres =
+        std::all_of(scene.geometry.items.begin(), scene.geometry.items.end(), [](const Item& item) {
+            return item.kind == ItemKind::sphere;
+        });
+    const OurIndexes indexes =
+        built_indexes({scene, floats, one_mesh, only_spheres}, settings, result);
     EmbreeDevice device(settings.threads, settings.embree_device);
     const EmbreeScenes embree = built_embree(device, floats, settings, result);
 

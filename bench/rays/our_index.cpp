@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "mesh_query.h"
+#include "float_query.h"
 #include "scene_query.h"
 #include <fmt/format.h>
 
@@ -22,10 +22,16 @@ struct Recipe {
 
 /// Every index that there is: a further one is a line here.
 constexpr Recipe recipes[] = {
-    {"mesh", true, [](const IndexInput& input) { return mesh_of(input, MeshIndexQuality::usual); }},
+    {"mesh", true, [](const IndexInput& input) { return mesh_of(input, IndexQuality::usual); }},
     {"mesh_high",
      false,
-     [](const IndexInput& input) { return mesh_of(input, MeshIndexQuality::high); }},
+     [](const IndexInput& input) { return mesh_of(input, IndexQuality::high); }},
+    {"spheres",
+     true,
+     [](const IndexInput& input) { return spheres_of(input, IndexQuality::usual); }},
+    {"spheres_high",
+     false,
+     [](const IndexInput& input) { return spheres_of(input, IndexQuality::high); }},
     {"bvh", true, [](const IndexInput& input) { return bvh_of(input.scene); }},
     {"grid", true, [](const IndexInput& input) { return grid_of(input.scene); }},
     {"brute", false, [](const IndexInput& input) { return brute_force_of(input.scene); }}};

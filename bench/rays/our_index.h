@@ -81,7 +81,8 @@ const std::vector<std::string>& usual_index_names();
 struct IndexInput {
     const Scene& scene;
     const FloatGeometry& floats;
-    bool one_mesh = false; ///< the scene is nothing but that
+    bool one_mesh = false;     ///< the scene is nothing but that
+    bool only_spheres = false; ///< nor anything but these
 };
 
 /// The index of that name, which is one of index_names(); null where it is not for such a scene.

@@ -144,6 +144,17 @@ std::optional<Scene> standard_scene(const char* name) {
     return scene;
 }
 
+/// Without what is no sphere, as the floor of balls_4: spheres are compared with spheres.
+std::optional<Scene> spheres_of_standard_scene(const char* name) {
+    std::optional<Scene> scene = standard_scene(name);
+    if (scene) {
+        std::erase_if(
+            scene->geometry.items, [](const Item& item) { return item.kind != ItemKind::sphere; });
+        number_primitives(*scene);
+    }
+    return scene;
+}
+
 std::optional<Scene> balls(BenchSize size) {
     return seen_from(
         scene_of(flake_spheres(size == BenchSize::full ? 5 : 3)), camera_at_flake(), {4, 3, 2});
@@ -203,9 +214,15 @@ const std::vector<Recipe>& recipes() {
              return mountain(size == BenchSize::full ? 512 : 64);
          }},
         {"tree", triangles, true, tree},
-        {"balls_4", spheres, true, [](BenchSize) { return standard_scene("balls_4.nff"); }},
+        {"balls_4",
+         spheres,
+         true,
+         [](BenchSize) { return spheres_of_standard_scene("balls_4.nff"); }},
         {"balls_5", spheres, true, balls},
-        {"shells_5", spheres, true, [](BenchSize) { return standard_scene("shells_5.nff"); }},
+        {"shells_5",
+         spheres,
+         true,
+         [](BenchSize) { return spheres_of_standard_scene("shells_5.nff"); }},
         {"shells_8", spheres, true, shells},
         {"goblets", rotational, true, goblets},
         {"flake_large", triangles, false, [](BenchSize size) -> std::optional<Scene> {

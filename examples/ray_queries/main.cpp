@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Asks which triangles of a mesh rays meet, in each of the ways there are, and prints a picture.
+// Asks which triangles of a mesh and which spheres rays meet, in each of the ways there are, and
+// prints a picture of the mesh.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include <vera/accel/mesh_index.h>
+#include <vera/accel/sphere_index.h>
 #include <vera/base/parallel.h>
 #include <vera/math/vec3.h>
 
@@ -74,6 +76,27 @@ void tell_what_is_below(const vera::MeshIndex& index) {
                   << ", u = " << hit.u << ", v = " << hit.v << ".\n";
 }
 
+/// A row of pearls along the x axis: x, y and z of the center, and the radius.
+std::vector<std::array<float, 4>> row_of_pearls() {
+    std::vector<std::array<float, 4>> pearls;
+    for (int i = 0; i < 10; ++i)
+        pearls.push_back({static_cast<float>(i), 0, 0, 0.5F});
+    return pearls;
+}
+
+void tell_which_pearls_are_met() {
+    const std::vector<std::array<float, 4>> pearls = row_of_pearls();
+    const vera::SphereIndex index(pearls);
+
+    const vera::MeshRay across = {.origin = {3.25F, -2, 0}, .direction = {0, 1, 0}};
+    const vera::SphereHit nearest = index.nearest_hit(across);
+    if (nearest.found())
+        std::cout << "First the ray meets pearl " << nearest.sphere << ".\n";
+
+    for (const vera::SphereHit& hit : index.all_hits(across))
+        std::cout << "It enters or leaves pearl " << hit.sphere << " at t = " << hit.t << ".\n";
+}
+
 constexpr int width = 64;
 constexpr int height = 24;
 
@@ -123,6 +146,7 @@ int main() {
     const Mesh mesh = ring_above_a_floor();
     const vera::MeshIndex index({mesh.vertices, mesh.triangles});
     tell_what_is_below(index);
+    tell_which_pearls_are_met();
 
     const std::vector<Pixel> pixels = pixels_by_squares();
     std::vector<vera::MeshRay> rays(pixels.size());

@@ -31,4 +31,5 @@ build "$here/consumer"
 build "$folder/installed/share/doc/vera-raytracer/examples/ray_queries"
 "$folder/ray_queries/ray_queries" | tee "$folder/said"
 [[ $(grep -c '^It meets triangle' "$folder/said") == 3 ]]
+[[ $(grep -c '^It enters or leaves pearl 3 at t = ' "$folder/said") == 2 ]]
 grep -q '^#.*\.\..*@@@' "$folder/said" # the floor, a shadow and the ring

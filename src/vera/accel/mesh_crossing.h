@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "vera/accel/float_tree.h"
 #include "vera/accel/mesh_index.h"
 #include "vera/math/vec3.h"
 #include "vera/scene/prepared_ray.h"
@@ -19,24 +20,6 @@ struct MeshCrossing {
     double u = 0;
     double v = 0;
 };
-
-inline Vec3 in_double(const std::array<float, 3>& point) {
-    return {
-        static_cast<double>(point[0]),
-        static_cast<double>(point[1]),
-        static_cast<double>(point[2])};
-}
-
-/// Whether queries follow the ray: see MeshRay.
-inline bool is_followed(const MeshRay& ray) {
-    bool directed = false;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        if (!std::isfinite(ray.origin[axis]) || !std::isfinite(ray.direction[axis]))
-            return false;
-        directed = directed || ray.direction[axis] != 0;
-    }
-    return directed && ray.t_min <= ray.t_max; // false where one is no number
-}
 
 /// Where the ray's line crosses a triangle's plane, in the order of operations that every way of
 /// answering follows. Not finite where the line lies in the plane.
@@ -156,6 +139,41 @@ struct NearestCrossing {
     MeshHit hit() const {
         return triangle == no_triangle ? MeshHit{} : mesh_hit(crossing, triangle);
     }
+};
+
+/// Decides in double precision which triangles of a mesh a ray meets, and which first of those that
+/// are considered. The ray is followed: see is_followed().
+class MeshDecider {
+public:
+    MeshDecider(const MeshSpans& mesh, const MeshRay& ray)
+        : mesh_(mesh)
+        , ray_(prepared_mesh_ray(ray)) {}
+
+    bool meets(std::uint32_t triangle) const {
+        return crossing_with(mesh_, ray_, triangle).has_value();
+    }
+
+    void consider(std::uint32_t triangle) {
+        if (const auto crossing = crossing_with(mesh_, ray_, triangle))
+            nearest_.add(*crossing, triangle);
+    }
+
+    /// Of the nearest crossing so far; infinity where there is none.
+    double t() const { return nearest_.crossing.t; }
+
+    MeshHit hit() const { return nearest_.hit(); }
+
+    /// Calls add(hit, t) for each crossing with the triangle.
+    template <typename Add>
+    void for_each_hit(std::uint32_t triangle, const Add& add) const {
+        if (const auto crossing = crossing_with(mesh_, ray_, triangle))
+            add(mesh_hit(*crossing, triangle), crossing->t);
+    }
+
+private:
+    const MeshSpans& mesh_;
+    PreparedRay ray_;
+    NearestCrossing nearest_;
 };
 
 } // namespace vera::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the rays of a search of a mesh have met: see mesh_search.cpp. Compiled once for each
+// What the rays of a search of a mesh have met: see float_search-inl.h. Compiled once for each
 // instruction set.
 
 #if defined(VERA_ACCEL_MESH_HITS_INL_H) == defined(HWY_TARGET_TOGGLE)
@@ -9,9 +9,11 @@
 #define VERA_ACCEL_MESH_HITS_INL_H
 #endif
 
+#include "vera/accel/float_hits-inl.h"
+#include "vera/accel/float_leaves-inl.h"
+#include "vera/accel/float_workspace-inl.h"
 #include "vera/accel/mesh_crossing.h"
-#include "vera/accel/mesh_leaves-inl.h"
-#include "vera/accel/mesh_workspace-inl.h"
+#include "vera/accel/mesh_tree.h"
 
 #include <algorithm>
 #include <array>
@@ -27,14 +29,6 @@ HWY_BEFORE_NAMESPACE();
 namespace vera::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
-
-/// As many as one byte has mask bits.
-using Doubles = hn::CappedTag<double, 8>;
-
-template <typename D>
-HWY_INLINE hn::Vec<D> dot_in_order(const Vector<hn::Vec<D>>& a, const Vector<hn::Vec<D>>& b, D) {
-    return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
-}
 
 template <typename D>
 HWY_INLINE Vector<hn::Vec<D>>
@@ -98,17 +92,9 @@ cross_planes(const RayGroup& group, const CornerRows& corners, GroupMask met, Hi
     }
 }
 
-/// The lanes that surely meet something.
-HWY_INLINE GroupMask lanes_with_place(const RayGroup& group) {
-    const hn::RebindToUnsigned<Rays> d;
-    GroupMask lanes = 0;
-    for (std::size_t i = 0; i < group_size; i += hn::Lanes(d))
-        lanes |= bits_of(d, hn::Ne(hn::Load(d, group.place.data() + i), hn::Set(d, no_place))) << i;
-    return lanes;
-}
-
 /// The hits of what was surely met, and nothing elsewhere.
-HWY_INLINE void take_sure_hits(const MeshTree& tree, const RayGroup& group, MeshHit* hits) {
+HWY_INLINE void
+take_sure_hits(const Search<MeshTree>& search, const RayGroup& group, MeshHit* hits) {
     const Rays d;
     const GroupMask met = lanes_with_place(group);
     if (met == 0) {
@@ -121,8 +107,7 @@ HWY_INLINE void take_sure_hits(const MeshTree& tree, const RayGroup& group, Mesh
         const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
         const std::uint32_t place = group.place[lane];
         const std::size_t size = place >> 8U;
-        const float* const rows =
-            tree.leaves.data() + mesh_leaf_rows * group.leaf[lane] + (place & 0xffU);
+        const float* const rows = numbers_at(search.tree, group.leaf[lane], place);
         corners[0][0][lane] = rows[0];
         corners[0][1][lane] = rows[size];
         corners[0][2][lane] = rows[2 * size];
@@ -132,7 +117,7 @@ HWY_INLINE void take_sure_hits(const MeshTree& tree, const RayGroup& group, Mesh
         corners[2][0][lane] = rows[6 * size];
         corners[2][1][lane] = rows[7 * size];
         corners[2][2][lane] = rows[8 * size];
-        triangles[lane] = rows[mesh_number_row * size];
+        triangles[lane] = rows[9 * size];
     }
     HitRows found;
     cross_planes(group, corners, met, found);
@@ -157,65 +142,26 @@ HWY_INLINE void take_sure_hits(const MeshTree& tree, const RayGroup& group, Mesh
             {&hits[lane].t, &hits[lane + 1].t, &hits[lane + 2].t, &hits[lane + 3].t});
 }
 
-/// The hit of a ray that may meet more than it surely meets, if it surely meets anything.
-HWY_NOINLINE MeshHit decide_doubtful(
-    const Search& search,
-    const MeshRay& ray,
-    std::uint32_t leaf,
-    std::uint32_t place,
-    std::uint32_t last_doubtful) {
-    const PreparedRay prepared = prepared_mesh_ray(ray);
-    NearestCrossing nearest;
-    const auto consider = [&](std::uint32_t triangle) {
-        if (const auto crossing = crossing_with(search.tree.mesh, prepared, triangle))
-            nearest.add(*crossing, triangle);
+/// The same for a ray that was followed alone, and surely meets something.
+HWY_INLINE MeshHit
+sure_hit(const Search<MeshTree>& search, const SingleRay& ray, float per_t_scale) {
+    const std::size_t size = ray.place >> 8U;
+    const float* const rows = numbers_at(search.tree, ray.leaf, ray.place);
+    const auto corner = [&](std::size_t number) {
+        return in_double(
+            {rows[3 * number * size],
+             rows[(3 * number + 1) * size],
+             rows[(3 * number + 2) * size]});
     };
-    if (place != no_place)
-        consider(triangle_at(search.tree, leaf, place));
-    for (std::uint32_t i = last_doubtful; i != no_doubtful; i = search.space.doubtful[i].before)
-        consider(search.space.doubtful[i].triangle);
-    return nearest.hit();
-}
-
-/// The lanes of rays that single precision cannot follow.
-HWY_INLINE GroupMask not_followed(const RayGroup& group) {
-    return ((GroupMask{1} << group.rays.size()) - 1) & ~group.followed;
-}
-
-/// The hits of the groups that were searched for.
-HWY_INLINE void take_hits(const Search& search, std::size_t groups, std::span<MeshHit> hits) {
-    const Workspace& space = search.space;
-    for (std::size_t i = 0; i < groups; ++i) {
-        const RayGroup& group = space.groups[i];
-        MeshHit* const of_group = hits.data() + i * group_size;
-        take_sure_hits(search.tree, group, of_group);
-        for (GroupMask rest = group.in_doubt; rest != 0; rest &= rest - 1) {
-            const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-            of_group[lane] = decide_doubtful(
-                search,
-                group.rays[lane],
-                group.leaf[lane],
-                group.place[lane],
-                group.doubtful[lane]);
-        }
-        for (GroupMask rest = not_followed(group); rest != 0; rest &= rest - 1) {
-            const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-            of_group[lane] = nearest_plainly(search.tree, group.rays[lane]);
-        }
-    }
-}
-
-HWY_INLINE void take_met(const Search& search, std::size_t groups, std::span<std::uint8_t> met) {
-    for (std::size_t i = 0; i < groups; ++i) {
-        const RayGroup& group = search.space.groups[i];
-        std::uint8_t* const of_group = met.data() + i * group_size;
-        for (std::size_t lane = 0; lane < group.rays.size(); ++lane)
-            of_group[lane] = static_cast<std::uint8_t>(group.met >> lane & 1U);
-        for (GroupMask rest = not_followed(group); rest != 0; rest &= rest - 1) {
-            const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-            of_group[lane] = meets_any_plainly(search.tree, group.rays[lane]) ? 1 : 0;
-        }
-    }
+    // As cross_planes() does it.
+    MeshCrossing crossing = plane_crossing(
+        in_double({ray.origin[0], ray.origin[1], ray.origin[2]}),
+        in_double({ray.direction[0], ray.direction[1], ray.direction[2]}),
+        corner(0),
+        corner(1),
+        corner(2));
+    crossing.t *= static_cast<double>(per_t_scale);
+    return mesh_hit(crossing, element_at(search.tree, ray.leaf, ray.place));
 }
 
 } // namespace vera::detail::HWY_NAMESPACE

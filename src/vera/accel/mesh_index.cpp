@@ -26,8 +26,10 @@ MeshHit MeshIndex::nearest_hit(const MeshRay& ray) const {
 void MeshIndex::nearest_hits(
     std::span<const MeshRay> rays, std::span<MeshHit> hits, MeshQueryCounts* counts) const {
     VERA_CHECK(rays.size() == hits.size());
-    MeshQueryCounts own;
-    detail::search_nearest(*tree_, rays, hits, counts != nullptr ? *counts : own);
+    detail::SearchCounts own;
+    detail::search_nearest(*tree_, rays, hits, own);
+    if (counts != nullptr)
+        *counts += {own.nodes, own.tests};
 }
 
 bool MeshIndex::meets_any(const MeshRay& ray) const {
@@ -39,8 +41,10 @@ bool MeshIndex::meets_any(const MeshRay& ray) const {
 void MeshIndex::meet_any(
     std::span<const MeshRay> rays, std::span<std::uint8_t> met, MeshQueryCounts* counts) const {
     VERA_CHECK(rays.size() == met.size());
-    MeshQueryCounts own;
-    detail::search_any(*tree_, rays, met, counts != nullptr ? *counts : own);
+    detail::SearchCounts own;
+    detail::search_any(*tree_, rays, met, own);
+    if (counts != nullptr)
+        *counts += {own.nodes, own.tests};
 }
 
 std::vector<MeshHit> MeshIndex::all_hits(const MeshRay& ray) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "vera/accel/index_ray.h"
 #include "vera/base/parallel.h"
 
 #include <array>
@@ -13,15 +14,8 @@
 
 namespace vera {
 
-/// A ray that a mesh is asked about, in the mesh's coordinates: the points origin + t direction for
-/// t_min <= t <= t_max. The direction has any length. A ray with a number that is none, an infinite
-/// origin or direction, or no direction meets nothing.
-struct MeshRay {
-    std::array<float, 3> origin = {};
-    float t_min = 0;
-    std::array<float, 3> direction = {};
-    float t_max = std::numeric_limits<float>::infinity();
-};
+using MeshRay = IndexRay;
+using MeshIndexQuality = IndexQuality;
 
 /// No triangle.
 constexpr std::uint32_t no_triangle = ~std::uint32_t{0};
@@ -44,12 +38,6 @@ struct MeshHit {
 struct MeshSpans {
     std::span<const std::array<float, 3>> vertices;
     std::span<const std::array<std::uint32_t, 3>> triangles;
-};
-
-/// How much work is put into an index.
-enum class MeshIndexQuality : std::uint8_t {
-    usual,
-    high ///< parts are moved to where they cost rays the least: slower to build, faster to ask
 };
 
 struct MeshIndexStatistics {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What rays do at the leaves of the tree of a mesh: see mesh_search.cpp. Compiled once for each
+// What rays do at the leaves of the tree of a mesh: see float_search-inl.h. Compiled once for each
 // instruction set.
 
 #if defined(VERA_ACCEL_MESH_LEAVES_INL_H) == defined(HWY_TARGET_TOGGLE)
@@ -9,8 +9,10 @@
 #define VERA_ACCEL_MESH_LEAVES_INL_H
 #endif
 
-#include "vera/accel/mesh_beams-inl.h"
-#include "vera/accel/mesh_rays-inl.h"
+#include "vera/accel/float_beams-inl.h"
+#include "vera/accel/float_leaves-inl.h"
+#include "vera/accel/float_singles-inl.h"
+#include "vera/accel/float_workspace-inl.h"
 #include "vera/accel/mesh_tree.h"
 
 #include <bit>
@@ -24,9 +26,6 @@ HWY_BEFORE_NAMESPACE();
 namespace vera::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
-
-/// Triangles of a leaf that are looked at together.
-using Triangles = hn::CappedTag<float, mesh_leaf_size>;
 
 // Bounds of what is rounded. Corners and rays are exact, so that a difference of two of them is off
 // by u = 2^-24 of itself, and each further operation by as much. With e and f the sides from corner
@@ -49,51 +48,6 @@ constexpr float depth_rounding = 8.5F * 0x1p-24F;
 constexpr float volume_underflow = 0x1p-110F;
 constexpr float speed_underflow = 0x1p-120F;
 
-template <typename V>
-struct Vector {
-    V x;
-    V y;
-    V z;
-};
-
-template <typename V>
-HWY_INLINE Vector<V> difference(const Vector<V>& a, const Vector<V>& b) {
-    return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
-}
-
-template <typename V>
-HWY_INLINE V product(const Vector<V>& a, const Vector<V>& b) {
-    return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
-}
-
-template <typename V>
-HWY_INLINE Vector<V> cross_product(const Vector<V>& a, const Vector<V>& b) {
-    return {
-        hn::MulSub(a.y, b.z, hn::Mul(a.z, b.y)),
-        hn::MulSub(a.z, b.x, hn::Mul(a.x, b.z)),
-        hn::MulSub(a.x, b.y, hn::Mul(a.y, b.x))};
-}
-
-template <typename V>
-HWY_INLINE Vector<V> absolute(const Vector<V>& a) {
-    return {hn::Abs(a.x), hn::Abs(a.y), hn::Abs(a.z)};
-}
-
-template <typename V>
-HWY_INLINE V sum_of(const Vector<V>& a) {
-    return hn::Add(hn::Add(a.x, a.y), a.z);
-}
-
-template <typename V>
-HWY_INLINE V largest(const Vector<V>& a) {
-    return hn::Max(hn::Abs(a.x), hn::Max(hn::Abs(a.y), hn::Abs(a.z)));
-}
-
-template <typename D>
-HWY_INLINE Vector<hn::Vec<D>> same_for_all(D d, const float* coordinates) {
-    return {hn::Set(d, coordinates[0]), hn::Set(d, coordinates[1]), hn::Set(d, coordinates[2])};
-}
-
 /// A triangle as single precision sees it.
 template <typename V>
 struct Sides {
@@ -107,7 +61,8 @@ struct Sides {
 
 /// Of triangles number i on of a leaf.
 template <typename D>
-HWY_INLINE Sides<hn::Vec<D>> sides_at(D d, const float* rows, std::size_t size, std::size_t i) {
+HWY_INLINE Sides<hn::Vec<D>>
+elements_at(const Search<MeshTree>&, D d, const float* rows, std::size_t size, std::size_t i) {
     using V = hn::Vec<D>;
     const auto row = [&](std::size_t j) HWY_ATTR { return hn::LoadU(d, rows + j * size + i); };
     const Vector<V> a = {row(0), row(1), row(2)};
@@ -135,17 +90,8 @@ struct Passing {
 /// than mesh_crossing() asks for.
 constexpr float well_known = 16;
 
-/// How rays meet triangles.
 template <typename D>
-struct MeshMeeting {
-    hn::Mask<D> may;  ///< false: surely not, or not before the limit
-    hn::Mask<D> sure; ///< true: surely, and after near and before far
-    hn::Vec<D> near;
-    hn::Vec<D> far;
-};
-
-template <typename D>
-HWY_INLINE MeshMeeting<D>
+HWY_INLINE Meeting<D>
 meeting_triangle(D d, const Passing<hn::Vec<D>>& passing, hn::Vec<D> t_min, hn::Vec<D> limit) {
     using V = hn::Vec<D>;
     const V w = hn::Sub(hn::Sub(passing.speed, passing.u), passing.v);
@@ -226,21 +172,23 @@ HWY_INLINE Passing<hn::Vec<D>> passing_triangle(
 /// missing from.
 struct SeenTriangles {
     static constexpr std::size_t count = 13;
-    alignas(64) float rows[count][mesh_leaf_size];
+    std::uint32_t may = 0; ///< which of them the beam's rays may meet before its limit
+    alignas(64) float rows[count][most_in_leaf];
 };
 
-/// The triangles of a leaf as they are seen from the beam's origin; returns which of them its rays
-/// may meet before its limit. That is told for all their directions at once, by middle and half.
-HWY_INLINE std::uint32_t
-see_triangles(const float* rows, std::size_t size, const BeamWalk& beam, SeenTriangles& seen) {
-    const Triangles d;
-    using V = hn::Vec<Triangles>;
+/// The triangles of a leaf as they are seen from the beam's origin. Which of them may be met is
+/// told for all directions of its rays at once, by middle and half.
+HWY_INLINE SeenTriangles seen_elements(
+    const Search<MeshTree>& search, const float* rows, std::size_t size, const BeamWalk& beam) {
+    const LeafLanes d;
+    using V = hn::Vec<LeafLanes>;
     const RayGroup& group = *beam.group;
     const Vector<V> middle = same_for_all(d, beam.direction_middle);
     const Vector<V> half = same_for_all(d, beam.direction_half);
+    SeenTriangles seen;
     std::uint32_t may = 0;
     for (std::size_t i = 0; i < size; i += hn::Lanes(d)) {
-        const Sides<V> sides = sides_at(d, rows, size, i);
+        const Sides<V> sides = elements_at(search, d, rows, size, i);
         const Vector<V> way = difference(sides.corner, same_for_all(d, beam.origin));
         const Vector<V> u = cross_product(sides.f, way);
         const Vector<V> v = cross_product(way, sides.e);
@@ -293,25 +241,68 @@ see_triangles(const float* rows, std::size_t size, const BeamWalk& beam, SeenTri
         const auto in_range = hn::Or(before, edge_on);
         may |= bits_of(d, hn::And(hn::Or(front, back), in_range)) << i;
     }
-    return may & ((std::uint32_t{1} << size) - 1);
+    seen.may = may & ((std::uint32_t{1} << size) - 1);
+    return seen;
 }
 
-/// How rays of these directions, which start at one origin, pass a triangle that was seen from it.
-HWY_INLINE Passing<hn::Vec<Rays>> passing_seen(
-    Rays d,
-    const Vector<hn::Vec<Rays>>& direction,
-    const SeenTriangles& seen,
-    std::size_t triangle) {
-    const auto value = [&](std::size_t j) HWY_ATTR { return hn::Set(d, seen.rows[j][triangle]); };
+/// Rays of a group, which start at one origin.
+struct DirectedRays {
+    Vector<hn::Vec<Rays>> direction;
+    hn::Vec<Rays> t_min;
+};
+
+/// Those from number i on.
+HWY_INLINE DirectedRays rays_at(const Search<MeshTree>&, const RayGroup& group, std::size_t i) {
+    const Rays d;
     return {
-        product({value(0), value(1), value(2)}, direction),
-        product({value(3), value(4), value(5)}, direction),
-        product({value(6), value(7), value(8)}, direction),
+        {hn::Load(d, group.direction[0].data() + i),
+         hn::Load(d, group.direction[1].data() + i),
+         hn::Load(d, group.direction[2].data() + i)},
+        hn::Load(d, group.t_min.data() + i)};
+}
+
+/// How the rays meet a triangle that was seen from their origin.
+HWY_INLINE Meeting<Rays> meeting_seen(
+    Rays d,
+    const DirectedRays& rays,
+    const SeenTriangles& seen,
+    std::size_t triangle,
+    hn::Vec<Rays> limit) {
+    const auto value = [&](std::size_t j) HWY_ATTR { return hn::Set(d, seen.rows[j][triangle]); };
+    const Passing<hn::Vec<Rays>> passing = {
+        product({value(0), value(1), value(2)}, rays.direction),
+        product({value(3), value(4), value(5)}, rays.direction),
+        product({value(6), value(7), value(8)}, rays.direction),
         value(9),
         value(10),
         value(11),
         value(12)};
+    return meeting_triangle(d, passing, rays.t_min, limit);
 }
+
+/// How a ray meets the triangles.
+HWY_INLINE Meeting<LeafLanes>
+meeting_single(const Sides<hn::Vec<LeafLanes>>& sides, const SingleRay& ray) {
+    const LeafLanes d;
+    return meeting_triangle(
+        d,
+        passing_triangle(
+            d,
+            same_for_all(d, ray.origin),
+            same_for_all(d, ray.direction),
+            ray.direction_size,
+            sides),
+        hn::Set(d, ray.t_min),
+        hn::Set(d, ray.limit));
+}
+
+// Triangles ask for no more of rays than all elements do.
+
+HWY_INLINE void add_rows(const Search<MeshTree>&, RayGroup&) {}
+
+HWY_INLINE void add_numbers(const Search<MeshTree>&, const RayGroup&, SingleRay*) {}
+
+HWY_INLINE void add_numbers(const Search<MeshTree>&, SingleRay&) {}
 
 } // namespace vera::detail::HWY_NAMESPACE
 

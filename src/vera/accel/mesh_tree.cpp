@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/accel/mesh_tree.h"
 
-#include "vera/base/large_pages.h"
+#include "vera/accel/float_tree_build.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
-#include <bit>
 #include <cmath>
 #include <stdexcept>
 
@@ -14,9 +14,6 @@
 namespace vera::detail {
 
 namespace {
-
-/// Ranges that the threads take.
-constexpr std::size_t grain = 4096;
 
 using Corners = std::array<std::uint32_t, 3>;
 
@@ -30,13 +27,14 @@ void lower(std::atomic<std::size_t>& bound, std::size_t value) {
 void check_corners(const MeshSpans& mesh) {
     const std::size_t vertices = mesh.vertices.size();
     std::atomic<std::size_t> first_wrong = mesh.triangles.size();
-    parallel_ranges(mesh.triangles.size(), grain, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) {
-            const Corners& corners = mesh.triangles[i];
-            if (corners[0] >= vertices || corners[1] >= vertices || corners[2] >= vertices)
-                return lower(first_wrong, i);
-        }
-    });
+    parallel_ranges(
+        mesh.triangles.size(), float_tree_grain, [&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i) {
+                const Corners& corners = mesh.triangles[i];
+                if (corners[0] >= vertices || corners[1] >= vertices || corners[2] >= vertices)
+                    return lower(first_wrong, i);
+            }
+        });
     const std::size_t i = first_wrong;
     if (i == mesh.triangles.size())
         return;
@@ -52,25 +50,8 @@ void check_corners(const MeshSpans& mesh) {
         vertices));
 }
 
-/// The largest coordinate of the finite vertices, without its sign.
-float largest_coordinate(std::span<const std::array<float, 3>> vertices) {
-    std::atomic<std::uint32_t> largest = 0; // of positive numbers, the bits have the same order
-    parallel_ranges(vertices.size(), grain, [&](std::size_t first, std::size_t last) {
-        float of_part = 0;
-        for (std::size_t i = first; i < last; ++i)
-            for (const float coordinate : vertices[i])
-                if (std::isfinite(coordinate))
-                    of_part = std::max(of_part, std::abs(coordinate));
-        const auto bits = std::bit_cast<std::uint32_t>(of_part);
-        std::uint32_t before = largest.load();
-        while (before < bits && !largest.compare_exchange_weak(before, bits)) {
-        }
-    });
-    return std::bit_cast<float>(largest.load());
-}
-
 /// The box of the corners; empty where a coordinate is not finite.
-FloatBox box_of(const MeshSpans& mesh, const Corners& corners, const MeshScale& scale) {
+FloatBox box_of(const MeshSpans& mesh, const Corners& corners, const FloatScale& scale) {
     FloatBox box;
     for (const std::uint32_t corner : corners)
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -81,61 +62,6 @@ FloatBox box_of(const MeshSpans& mesh, const Corners& corners, const MeshScale& 
             box.upper[axis] = std::max(box.upper[axis], scale(coordinate));
         }
     return box;
-}
-
-/// Every coordinate can be had back from what it becomes.
-bool is_exact(const MeshSpans& mesh, int exponent) {
-    const MeshScale scale(exponent);
-    const MeshScale back(-exponent);
-    std::atomic<bool> exact = true;
-    parallel_ranges(mesh.vertices.size(), grain, [&](std::size_t first, std::size_t last) {
-        bool all = true;
-        for (std::size_t i = first; i < last; ++i)
-            for (const float coordinate : mesh.vertices[i])
-                all = all && (back(scale(coordinate)) == coordinate || !std::isfinite(coordinate));
-        if (!all)
-            exact = false;
-    });
-    return exact;
-}
-
-std::vector<BoxReference> references_of(const MeshSpans& mesh, const MeshScale& scale) {
-    std::vector<BoxReference> references(mesh.triangles.size());
-    std::atomic<bool> some_are_empty = false;
-    parallel_ranges(references.size(), grain, [&](std::size_t first, std::size_t last) {
-        bool empty = false;
-        for (std::size_t i = first; i < last; ++i) {
-            const FloatBox box = box_of(mesh, mesh.triangles[i], scale);
-            references[i] = {box.lower, static_cast<std::uint32_t>(i), box.upper, 0};
-            empty = empty || !(box.lower[0] <= box.upper[0]);
-        }
-        if (empty)
-            some_are_empty = true;
-    });
-    if (some_are_empty)
-        std::erase_if(references, [](const BoxReference& reference) {
-            return !(reference.lower[0] <= reference.upper[0]);
-        });
-    return references;
-}
-
-/// Fills in the rows of a leaf.
-void fill_leaf(
-    const MeshSpans& mesh,
-    const MeshScale& scale,
-    const std::vector<BoxReference>& references,
-    const TreeChild& leaf,
-    std::vector<float>& leaves) {
-    const std::size_t size = leaf_size(leaf);
-    float* const rows = leaves.data() + mesh_leaf_rows * leaf.first();
-    for (std::size_t i = 0; i < size; ++i) {
-        const std::uint32_t number = references[leaf.first() + i].element;
-        for (std::size_t corner = 0; corner < 3; ++corner)
-            for (std::size_t axis = 0; axis < 3; ++axis)
-                rows[(3 * corner + axis) * size + i] =
-                    scale(mesh.vertices[mesh.triangles[number][corner]][axis]);
-        rows[mesh_number_row * size + i] = std::bit_cast<float>(number);
-    }
 }
 
 } // namespace
@@ -149,42 +75,29 @@ MeshTree build_mesh_tree(MeshSpans mesh, MeshIndexQuality quality, const CancelF
     check_corners(mesh);
     MeshTree tree;
     tree.mesh = mesh;
-    const float largest = largest_coordinate(mesh.vertices);
-    if (largest > 0) {
-        int exponent = 0;
-        std::frexp(largest, &exponent);
-        tree.exponent = -exponent;
-    }
-    tree.scale = MeshScale(tree.exponent);
-    tree.scale_back = MeshScale(-tree.exponent);
-    const MeshScale& scale = tree.scale;
-    tree.exact = is_exact(mesh, tree.exponent);
-    std::vector<BoxReference> references = references_of(mesh, scale);
+    set_scale(tree, mesh.vertices, static_cast<double>(largest_number(mesh.vertices)));
+    const FloatScale& scale = tree.scale;
+    std::vector<BoxReference> references =
+        float_references(mesh.triangles.size(), [&](std::size_t i) {
+            return box_of(mesh, mesh.triangles[i], scale);
+        });
     const std::size_t triangles = references.size();
-    const TreeEffort effort =
-        quality == MeshIndexQuality::high ? TreeEffort::high : TreeEffort::usual;
-    BoxTree boxes = build_box_tree(std::move(references), mesh_leaf_size, cancel, effort);
-    // Whole registers are loaded of the last rows.
-    const std::size_t numbers = mesh_leaf_rows * boxes.references.size() + 2 * mesh_leaf_size;
-    tree.leaves.reserve(numbers);
-    prefer_large_pages(tree.leaves.data(), numbers * sizeof(float));
-    tree.leaves.resize(numbers);
-    parallel_ranges(boxes.nodes.size(), 256, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i)
-            for (const TreeChild& child : boxes.nodes[i].children)
-                if (child.is_block() != 0)
-                    fill_leaf(mesh, scale, boxes.references, child, tree.leaves);
-    });
-    tree.nodes = std::move(boxes.nodes);
-    prefer_large_pages(tree.nodes.data(), tree.nodes.size() * sizeof(WideNode));
+    const std::size_t leaves =
+        grow_float_tree(tree, std::move(references), quality, cancel, [&](std::uint32_t triangle) {
+            std::array<float, 9> numbers;
+            for (std::size_t corner = 0; corner < 3; ++corner)
+                for (std::size_t axis = 0; axis < 3; ++axis)
+                    numbers[3 * corner + axis] =
+                        scale(mesh.vertices[mesh.triangles[triangle][corner]][axis]);
+            return numbers;
+        });
     tree.statistics = {
         triangles,
         mesh.triangles.size() - triangles,
-        boxes.levels,
+        tree.levels,
         tree.nodes.size(),
-        boxes.leaves,
-        sizeof(MeshTree) + tree.nodes.capacity() * sizeof(WideNode)
-            + tree.leaves.capacity() * sizeof(float)};
+        leaves,
+        bytes_of(tree)};
     return tree;
 }
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays that are tested by themselves on their way through the tree of a mesh: see mesh_search.cpp.
+// Rays that are tested by themselves on their way through a tree of boxes: see float_search-inl.h.
 // Compiled once for each instruction set.
 
-#if defined(VERA_ACCEL_MESH_SINGLES_INL_H) == defined(HWY_TARGET_TOGGLE)
-#ifdef VERA_ACCEL_MESH_SINGLES_INL_H
-#undef VERA_ACCEL_MESH_SINGLES_INL_H
+#if defined(VERA_ACCEL_FLOAT_SINGLES_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef VERA_ACCEL_FLOAT_SINGLES_INL_H
+#undef VERA_ACCEL_FLOAT_SINGLES_INL_H
 #else
-#define VERA_ACCEL_MESH_SINGLES_INL_H
+#define VERA_ACCEL_FLOAT_SINGLES_INL_H
 #endif
 
-#include "vera/accel/mesh_rays-inl.h"
+#include "vera/accel/float_rays-inl.h"
 
 #include <algorithm>
 #include <array>
@@ -27,9 +27,9 @@ namespace vera::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// A ray that is tested against boxes and triangles by itself. See BoxedRay and RayGroup.
+/// A ray that is tested against boxes and elements by itself. See BoxedRay and RayGroup.
 struct alignas(64) SingleRay {
-    // What boxes need, and most of what triangles need, side by side.
+    // What boxes need, and most of what elements need, side by side.
     float inverse[3];
     float near_offset[3];
     float far_offset[3];
@@ -42,9 +42,11 @@ struct alignas(64) SingleRay {
     std::uint32_t leaf;
     std::uint32_t place;
     float direction_size;
+    float per_square;
+    float length;
     std::uint32_t lane;
     RayGroup* group; ///< where it stands among others
-    const MeshRay* given;
+    const IndexRay* given;
 };
 
 /// The rays of the group, of which those that are not followed may be anything.
@@ -129,8 +131,8 @@ inline float power_of_two(int exponent) {
 /// Fills in a ray that is asked about alone, as place_group() does it; false where single precision
 /// cannot follow it. per_t_scale as in a RayGroup.
 HWY_INLINE bool start_single(
-    const MeshTree& tree,
-    const MeshRay& given,
+    const FloatTree& tree,
+    const IndexRay& given,
     SingleRay& ray,
     std::size_t& octant,
     float& per_t_scale) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a MeshIndex leaves behind when memory runs out while it is made: nothing. A program of its
-// own, as it replaces operator new.
+// What a MeshIndex or a SphereIndex leaves behind when memory runs out while it is made: nothing. A
+// program of its own, as it replaces operator new.
 #include "vera/accel/mesh_index.h"
+#include "vera/accel/sphere_index.h"
 #include "vera/base/parallel.h"
 
 #include <atomic>
@@ -9,6 +10,7 @@
 #include <new>
 
 #include "sample_mesh.h"
+#include "sample_spheres.h"
 #include <gtest/gtest.h>
 
 namespace {
@@ -121,19 +123,22 @@ namespace vera {
 namespace {
 
 using testing::random_mesh;
+using testing::random_spheres;
 using testing::SampleMesh;
+using testing::SampleSpheres;
 
-/// Lets memory run out at the first block, and then each time so many blocks later.
-void expect_nothing_left_behind(
-    const SampleMesh& mesh, MeshIndexQuality quality, std::size_t threads, long step) {
+/// Lets memory run out at the first block, and then each time so many blocks later, while make()
+/// makes an index.
+template <typename Make>
+void expect_nothing_left_behind(std::size_t threads, long step, const Make& make) {
     const ThreadLimit limit(threads);
-    { const MeshIndex index(mesh.spans(), quality); } // what is made once in a process is made
+    make(); // what is made once in a process is made
     const long before = blocks;
     long given = 0;
     for (bool made = false; !made; given += step) {
         times_left = given;
         try {
-            const MeshIndex index(mesh.spans(), quality);
+            make();
             made = true;
         } catch (const std::bad_alloc&) { // NOLINT(bugprone-empty-catch)
         }
@@ -143,12 +148,28 @@ void expect_nothing_left_behind(
     EXPECT_GT(given, 5);
 }
 
+/// So many triangles.
+void expect_nothing_left_of_mesh(
+    std::size_t triangles, MeshIndexQuality quality, std::size_t threads, long step) {
+    const SampleMesh mesh = random_mesh(1, triangles);
+    expect_nothing_left_behind(
+        threads, step, [&] { const MeshIndex index(mesh.spans(), quality); });
+}
+
 TEST(MeshIndex, LeavesNothingBehindWhereverMemoryRunsOut) {
     for (const auto quality : {MeshIndexQuality::usual, MeshIndexQuality::high}) {
-        expect_nothing_left_behind(random_mesh(1, 1), quality, 1, 1);
-        expect_nothing_left_behind(random_mesh(1, 300), quality, 1, 1);
-        expect_nothing_left_behind(random_mesh(1, 10'000), quality, 1, 97);
-        expect_nothing_left_behind(random_mesh(1, 10'000), quality, 3, 89);
+        expect_nothing_left_of_mesh(1, quality, 1, 1);
+        expect_nothing_left_of_mesh(300, quality, 1, 1);
+        expect_nothing_left_of_mesh(10'000, quality, 1, 97);
+        expect_nothing_left_of_mesh(10'000, quality, 3, 89);
+    }
+}
+
+TEST(SphereIndex, LeavesNothingBehindWhereverMemoryRunsOut) {
+    for (const auto quality : {IndexQuality::usual, IndexQuality::high}) {
+        const SampleSpheres spheres = random_spheres(1, 300);
+        expect_nothing_left_behind(1, 1, [&] { const SphereIndex index(spheres, quality); });
+        expect_nothing_left_behind(3, 7, [&] { const SphereIndex index(spheres, quality); });
     }
 }
 

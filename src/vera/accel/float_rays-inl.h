@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays as they go through the tree of a mesh: see mesh_search.cpp. Compiled once for each
+// Rays as they go through a tree of boxes: see float_search-inl.h. Compiled once for each
 // instruction set.
 
-#if defined(VERA_ACCEL_MESH_RAYS_INL_H) == defined(HWY_TARGET_TOGGLE)
-#ifdef VERA_ACCEL_MESH_RAYS_INL_H
-#undef VERA_ACCEL_MESH_RAYS_INL_H
+#if defined(VERA_ACCEL_FLOAT_RAYS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef VERA_ACCEL_FLOAT_RAYS_INL_H
+#undef VERA_ACCEL_FLOAT_RAYS_INL_H
 #else
-#define VERA_ACCEL_MESH_RAYS_INL_H
+#define VERA_ACCEL_FLOAT_RAYS_INL_H
 #endif
 
-#include "vera/accel/mesh_tree.h"
+#include "vera/accel/float_tree.h"
 #include "vera/accel/tree_children-inl.h"
 
 #include <algorithm>
@@ -50,14 +50,17 @@ struct RayGroup {
     GroupRow<float> per_t_scale; ///< 1 / t_scale
     GroupRow<float> inverse[3];  ///< of the direction; large but finite where that is 0
     GroupRow<float> largest;     ///< the direction's largest coordinate, without its sign
-    GroupRow<float> limit;       ///< what lies behind this t does not count any more
+    // Only for spheres:
+    GroupRow<float> per_square; ///< 1 / the square of the direction's length
+    GroupRow<float> length;     ///< at least that length, and hardly more
+    GroupRow<float> limit;      ///< what lies behind this t does not count any more
     /// Of what is surely met and nearest so far: a t before which it is not; and where it stands.
     GroupRow<float> near;
     GroupRow<std::uint32_t> leaf;     ///< TreeChild::first() of its leaf
     GroupRow<std::uint32_t> place;    ///< in the leaf: see place_in_leaf()
     GroupRow<std::uint32_t> doubtful; ///< the last of the lane's Doubtful
     GroupMask in_doubt = 0;           ///< the lanes that have one
-    std::span<const MeshRay> rays;
+    std::span<const IndexRay> rays;
     GroupMask followed = 0;   ///< the lanes of rays that single precision can follow
     GroupMask met = 0;        ///< where only this is asked: the lanes that surely meet something
     float direction_size = 0; ///< the largest sum of a direction's coordinates, without signs
@@ -67,7 +70,7 @@ struct RayGroup {
 /// No place in a leaf.
 constexpr std::uint32_t no_place = ~std::uint32_t{0};
 
-/// Where triangle i of a leaf of that size stands.
+/// Where element i of a leaf of that size stands.
 inline std::uint32_t place_in_leaf(std::size_t size, std::size_t i) {
     return static_cast<std::uint32_t>(size << 8U | i);
 }
@@ -82,7 +85,7 @@ HWY_INLINE hn::Mask<Rays> in_group(Rays d, GroupMask set, std::size_t first) {
 #endif
 }
 
-/// Rays that go to more than so many times the mesh's size away from it are followed in double
+/// Rays that go to more than so many times the elements' extent away from it are followed in double
 /// precision: single precision does not tell much of them.
 constexpr float farthest_origin = 0x1p10F;
 
@@ -103,7 +106,7 @@ inline float rounding_slack(float largest_origin) {
 }
 
 /// Fills in what follows from the rows of the rays as they were given.
-HWY_INLINE void place_group(const MeshTree& tree, GroupMask lanes, RayGroup& group) {
+HWY_INLINE void place_group(const FloatTree& tree, GroupMask lanes, RayGroup& group) {
     const Rays d;
     const RayInts di;
     const auto first = hn::Set(d, tree.scale.first);
@@ -219,12 +222,12 @@ transpose(const std::array<const float*, 4>& from, const std::array<float*, 4>& 
 }
 
 /// Writes group_size rays row by row.
-HWY_INLINE void fill_rows(const MeshRay* from, RayGroup& group) {
-    static_assert(offsetof(MeshRay, t_min) == 3 * sizeof(float));
-    static_assert(offsetof(MeshRay, direction) == 4 * sizeof(float));
-    static_assert(offsetof(MeshRay, t_max) == 7 * sizeof(float));
+HWY_INLINE void fill_rows(const IndexRay* from, RayGroup& group) {
+    static_assert(offsetof(IndexRay, t_min) == 3 * sizeof(float));
+    static_assert(offsetof(IndexRay, direction) == 4 * sizeof(float));
+    static_assert(offsetof(IndexRay, t_max) == 7 * sizeof(float));
     for (std::size_t lane = 0; lane < group_size; lane += 4) {
-        const MeshRay* const four = from + lane;
+        const IndexRay* const four = from + lane;
         transpose(
             {four[0].origin.data(),
              four[1].origin.data(),
@@ -247,18 +250,19 @@ HWY_INLINE void fill_rows(const MeshRay* from, RayGroup& group) {
 }
 
 /// Writes up to group_size rays row by row, and places them.
-HWY_INLINE void start_group(const MeshTree& tree, std::span<const MeshRay> rays, RayGroup& group) {
+HWY_INLINE void
+start_group(const FloatTree& tree, std::span<const IndexRay> rays, RayGroup& group) {
     group.rays = rays;
     if (rays.size() < group_size) {
         // What is missing is a copy of the last.
-        std::array<MeshRay, group_size> copies;
+        std::array<IndexRay, group_size> copies;
         for (std::size_t lane = 0; lane < group_size; ++lane)
             copies[lane] = rays[std::min(lane, rays.size() - 1)];
         fill_rows(copies.data(), group);
     } else {
         fill_rows(rays.data(), group);
     }
-    // Where corners lost digits, what is sure in single precision is sure of other corners.
+    // Where numbers lost digits, what is sure in single precision is sure of other elements.
     place_group(tree, tree.exact ? (GroupMask{1} << rays.size()) - 1 : 0, group);
 }
 

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ways through the tree of a mesh: see mesh_search.cpp. Compiled once for each
+// Ways through a tree of boxes: see float_search-inl.h. Compiled once for each
 // instruction set.
 
-#if defined(VERA_ACCEL_MESH_WALKS_INL_H) == defined(HWY_TARGET_TOGGLE)
-#ifdef VERA_ACCEL_MESH_WALKS_INL_H
-#undef VERA_ACCEL_MESH_WALKS_INL_H
+#if defined(VERA_ACCEL_FLOAT_WALKS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef VERA_ACCEL_FLOAT_WALKS_INL_H
+#undef VERA_ACCEL_FLOAT_WALKS_INL_H
 #else
-#define VERA_ACCEL_MESH_WALKS_INL_H
+#define VERA_ACCEL_FLOAT_WALKS_INL_H
 #endif
 
-#include "vera/accel/mesh_leaves-inl.h"
-#include "vera/accel/mesh_streams-inl.h"
-#include "vera/accel/mesh_workspace-inl.h"
+#include "vera/accel/float_leaves-inl.h"
+#include "vera/accel/float_streams-inl.h"
+#include "vera/accel/float_workspace-inl.h"
 
 #include <algorithm>
 #include <array>
@@ -28,46 +28,46 @@ namespace vera::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Notes that the lanes' rays may meet triangle j of a leaf.
-HWY_NOINLINE inline void doubt_lanes(
-    const Search& search, const TreeChild& leaf, std::size_t j, GroupMask lanes, RayGroup& group) {
-    const std::uint32_t triangle = triangle_at(
+/// Notes that the lanes' rays may meet element j of a leaf.
+template <typename Tree>
+HWY_NOINLINE void doubt_lanes(
+    const Search<Tree>& search,
+    const TreeChild& leaf,
+    std::size_t j,
+    GroupMask lanes,
+    RayGroup& group) {
+    const std::uint32_t element = element_at(
         search.tree, static_cast<std::uint32_t>(leaf.first()), place_in_leaf(leaf_size(leaf), j));
     for (; lanes != 0; lanes &= lanes - 1)
         doubt(
             search.space.doubtful,
             group,
             static_cast<std::size_t>(std::countr_zero(lanes)),
-            triangle);
+            element);
 }
 
 /// What the rays of a beam do at a leaf.
-HWY_INLINE void visit_leaf(const Search& search, const TreeChild& leaf, BeamWalk& beam) {
+template <typename Tree>
+HWY_INLINE void visit_leaf(const Search<Tree>& search, const TreeChild& leaf, BeamWalk& beam) {
     const Rays d;
     const hn::RebindToUnsigned<Rays> du;
     const std::size_t size = leaf_size(leaf);
     RayGroup& group = *beam.group;
-    SeenTriangles seen;
-    const std::uint32_t may_any = see_triangles(rows_of(search.tree, leaf), size, beam, seen);
-    if (may_any == 0)
+    const auto seen = seen_elements(search, rows_of(search.tree, leaf), size, beam);
+    if (seen.may == 0)
         return;
-    search.counts.triangles += static_cast<std::uint64_t>(std::popcount(may_any));
+    search.counts.tests += static_cast<std::uint64_t>(std::popcount(seen.may));
     auto largest = hn::Set(d, -1);
     for (std::size_t i = 0; i < group_size; i += hn::Lanes(d)) {
         const auto followed = in_group(d, group.followed, i);
-        const Vector<hn::Vec<Rays>> direction = {
-            hn::Load(d, group.direction[0].data() + i),
-            hn::Load(d, group.direction[1].data() + i),
-            hn::Load(d, group.direction[2].data() + i)};
-        const auto t_min = hn::Load(d, group.t_min.data() + i);
+        const auto rays = rays_at(search, group, i);
         auto limit = hn::Load(d, group.limit.data() + i);
         auto near = hn::Load(d, group.near.data() + i);
         auto first = hn::Load(du, group.leaf.data() + i);
         auto place = hn::Load(du, group.place.data() + i);
-        for (std::uint32_t rest = may_any; rest != 0; rest &= rest - 1) {
+        for (std::uint32_t rest = seen.may; rest != 0; rest &= rest - 1) {
             const auto j = static_cast<std::size_t>(std::countr_zero(rest));
-            const auto meeting =
-                meeting_triangle(d, passing_seen(d, direction, seen, j), t_min, limit);
+            const Meeting<Rays> meeting = meeting_seen(d, rays, seen, j, limit);
             const auto sure = hn::And(meeting.sure, followed);
             const auto nearer = hn::And(sure, hn::Lt(meeting.far, near));
             const auto nearer_ints = hn::RebindMask(du, nearer);
@@ -90,16 +90,16 @@ HWY_INLINE void visit_leaf(const Search& search, const TreeChild& leaf, BeamWalk
     beam.limit = limit_of_largest(largest);
 }
 
-/// Takes how a ray meets triangles number i on of a leaf; true when it is only asked whether it
+/// Takes how a ray meets elements number i on of a leaf; true when it is only asked whether it
 /// meets anything, and it does.
-template <bool any>
+template <bool any, typename Tree>
 HWY_INLINE bool take_meetings(
-    const Search& search,
+    const Search<Tree>& search,
     const TreeChild& leaf,
     std::size_t i,
-    const MeshMeeting<Triangles>& meeting,
+    const Meeting<LeafLanes>& meeting,
     SingleRay& ray) {
-    const Triangles d;
+    const LeafLanes d;
     const std::size_t size = leaf_size(leaf);
     std::uint32_t may = bits_of(d, meeting.may) & ((std::uint32_t{1} << (size - i)) - 1);
     if (may == 0)
@@ -108,8 +108,8 @@ HWY_INLINE bool take_meetings(
     if constexpr (any)
         if ((sure & may) != 0)
             return true;
-    alignas(64) float near[mesh_leaf_size];
-    alignas(64) float far[mesh_leaf_size];
+    alignas(64) float near[most_in_leaf];
+    alignas(64) float far[most_in_leaf];
     hn::Store(meeting.near, d, near);
     hn::Store(meeting.far, d, far);
     const auto first = static_cast<std::uint32_t>(leaf.first());
@@ -127,60 +127,44 @@ HWY_INLINE bool take_meetings(
                 }
             }
         }
-        const std::uint32_t triangle = triangle_at(search.tree, first, place);
+        const std::uint32_t element = element_at(search.tree, first, place);
         if constexpr (any) {
-            if (surely_meets(search.tree, *ray.given, triangle))
+            if (surely_meets(search.tree, *ray.given, element))
                 return true;
         } else {
-            doubt(search.space.doubtful, *ray.group, ray.lane, triangle);
+            doubt(search.space.doubtful, *ray.group, ray.lane, element);
         }
     }
     return false;
 }
 
-/// How a ray meets the triangles.
-HWY_INLINE MeshMeeting<Triangles>
-meeting_single(const Sides<hn::Vec<Triangles>>& sides, const SingleRay& ray) {
-    const Triangles d;
-    return meeting_triangle(
-        d,
-        passing_triangle(
-            d,
-            same_for_all(d, ray.origin),
-            same_for_all(d, ray.direction),
-            ray.direction_size,
-            sides),
-        hn::Set(d, ray.t_min),
-        hn::Set(d, ray.limit));
-}
-
 /// What a ray does at a leaf; true when it is only asked whether it meets anything, and it does.
-template <bool any>
-HWY_INLINE bool visit_leaf(const Search& search, const TreeChild& leaf, SingleRay& ray) {
-    const Triangles d;
+template <bool any, typename Tree>
+HWY_INLINE bool visit_leaf(const Search<Tree>& search, const TreeChild& leaf, SingleRay& ray) {
+    const LeafLanes d;
     const std::size_t size = leaf_size(leaf);
     const float* const rows = rows_of(search.tree, leaf);
-    search.counts.triangles += size;
+    search.counts.tests += size;
     for (std::size_t i = 0; i < size; i += hn::Lanes(d))
         if (take_meetings<any>(
-                search, leaf, i, meeting_single(sides_at(d, rows, size, i), ray), ray))
+                search, leaf, i, meeting_single(elements_at(search, d, rows, size, i), ray), ray))
             return true;
     return false;
 }
 
 /// What the rays of a stream do at a leaf.
-template <bool any>
+template <bool any, typename Tree>
 HWY_INLINE void
-visit_leaf(const Search& search, const TreeChild& leaf, StreamMask rays, RayStream& stream) {
-    const Triangles d;
+visit_leaf(const Search<Tree>& search, const TreeChild& leaf, StreamMask rays, RayStream& stream) {
+    const LeafLanes d;
     const std::size_t size = leaf_size(leaf);
     const float* const rows = rows_of(search.tree, leaf);
-    search.counts.triangles += size * static_cast<std::size_t>(std::popcount(rays));
+    search.counts.tests += size * static_cast<std::size_t>(std::popcount(rays));
     for (std::size_t i = 0; i < size; i += hn::Lanes(d)) {
-        const auto sides = sides_at(d, rows, size, i);
+        const auto elements = elements_at(search, d, rows, size, i);
         for (StreamMask rest = rays & stream.left; rest != 0; rest &= rest - 1) {
             SingleRay& ray = *stream.rays[static_cast<std::size_t>(std::countr_zero(rest))];
-            if (take_meetings<any>(search, leaf, i, meeting_single(sides, ray), ray)) {
+            if (take_meetings<any>(search, leaf, i, meeting_single(elements, ray), ray)) {
                 ray.group->met |= GroupMask{1} << ray.lane;
                 stream.left &= ~(rest & -rest);
             }
@@ -196,24 +180,23 @@ HWY_INLINE bool take_waiting(BeamWalk& beam) {
     return true;
 }
 
-HWY_INLINE void fetch(const MeshTree& tree, const TreeChild& child) {
-    fetch(tree.nodes.data(), tree.leaves.data(), mesh_leaf_rows * sizeof(float), child);
+template <typename Tree>
+HWY_INLINE void fetch(const Tree& tree, const TreeChild& child) {
+    fetch(tree.nodes.data(), tree.leaves.data(), Tree::leaf_rows * sizeof(float), child);
 }
-
-/// Where a beam has taken so many steps, what it meets is smaller than the space between its rays.
-constexpr std::uint32_t most_steps = 48;
 
 /// Follows the beams down from the root, a step each in turn; returns the numbers, as bits, of
 /// those that have taken too many to go on like this.
-HWY_NOINLINE inline std::uint32_t follow_beams(const Search& search, std::size_t count) {
-    const MeshTree& tree = search.tree;
+template <typename Tree>
+HWY_NOINLINE std::uint32_t follow_beams(const Search<Tree>& search, std::size_t count) {
+    const Tree& tree = search.tree;
     std::uint32_t under_way = (std::uint32_t{1} << count) - 1;
     std::uint32_t fanned_out = 0;
     while (under_way != 0) {
         for (std::uint32_t rest = under_way; rest != 0; rest &= rest - 1) {
             const auto number = static_cast<std::size_t>(std::countr_zero(rest));
             BeamWalk& beam = search.space.beams[number];
-            if (HWY_UNLIKELY(++beam.steps > most_steps)) {
+            if (HWY_UNLIKELY(++beam.steps > Tree::most_beam_steps)) {
                 fanned_out |= std::uint32_t{1} << number;
                 under_way &= ~(std::uint32_t{1} << number);
                 continue;
@@ -237,8 +220,9 @@ HWY_NOINLINE inline std::uint32_t follow_beams(const Search& search, std::size_t
 }
 
 /// Makes a stream of single rays of one octant, with nothing that waits for them.
+template <typename Tree>
 HWY_INLINE RayStream& start_stream(
-    const Search& search,
+    const Search<Tree>& search,
     std::size_t number,
     std::span<const std::uint16_t> rays,
     std::size_t octant,
@@ -268,9 +252,9 @@ HWY_INLINE RayStream& start_stream(
 
 /// Follows the streams, a step each in turn, so that what each needs next arrives while the others
 /// work.
-template <bool any>
-HWY_NOINLINE void follow_streams(const Search& search, std::size_t count) {
-    const MeshTree& tree = search.tree;
+template <bool any, typename Tree>
+HWY_NOINLINE void follow_streams(const Search<Tree>& search, std::size_t count) {
+    const Tree& tree = search.tree;
     std::uint64_t under_way = (std::uint64_t{1} << count) - 1;
     while (under_way != 0) {
         for (std::uint64_t those = under_way; those != 0; those &= those - 1) {

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Groups of rays that go through the tree of a mesh together: see mesh_search.cpp. Compiled once
+// Groups of rays that go through a tree of boxes together: see float_search-inl.h. Compiled once
 // for each instruction set.
 
-#if defined(VERA_ACCEL_MESH_BEAMS_INL_H) == defined(HWY_TARGET_TOGGLE)
-#ifdef VERA_ACCEL_MESH_BEAMS_INL_H
-#undef VERA_ACCEL_MESH_BEAMS_INL_H
+#if defined(VERA_ACCEL_FLOAT_BEAMS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef VERA_ACCEL_FLOAT_BEAMS_INL_H
+#undef VERA_ACCEL_FLOAT_BEAMS_INL_H
 #else
-#define VERA_ACCEL_MESH_BEAMS_INL_H
+#define VERA_ACCEL_FLOAT_BEAMS_INL_H
 #endif
 
-#include "vera/accel/mesh_rays-inl.h"
+#include "vera/accel/float_rays-inl.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesh_query.h"
+#include "float_query.h"
+
+#include "vera/accel/mesh_index.h"
+#include "vera/accel/sphere_index.h"
 
 #include <algorithm>
 #include <limits>
@@ -11,10 +14,41 @@ namespace vera {
 
 namespace {
 
-class MeshQuery : public OurQuery {
+/// What differs between the two indexes.
+struct OfMesh {
+    using Index = MeshIndex;
+    using Hit = MeshHit;
+    using Counts = MeshQueryCounts;
+
+    static Index index_of(const FloatGeometry& floats, IndexQuality quality) {
+        return Index(
+            {std::span(floats.corners).first(floats.corners.size() - 1), floats.triangles},
+            quality);
+    }
+
+    static std::uint64_t tests(const Counts& counts) { return counts.triangles; }
+};
+
+struct OfSpheres {
+    using Index = SphereIndex;
+    using Hit = SphereHit;
+    using Counts = SphereQueryCounts;
+
+    static Index index_of(const FloatGeometry& floats, IndexQuality quality) {
+        return Index(floats.spheres, quality);
+    }
+
+    static std::uint64_t tests(const Counts& counts) { return counts.spheres; }
+};
+
+template <typename Kind>
+class FloatQuery : public OurQuery {
 public:
-    MeshQuery(
-        const MeshIndex& index, const RaySet& rays, std::size_t threads, std::size_t generation)
+    FloatQuery(
+        const typename Kind::Index& index,
+        const RaySet& rays,
+        std::size_t threads,
+        std::size_t generation)
         : index_(index)
         , nearest_(rays.question == Question::nearest)
         , threads_(threads)
@@ -43,7 +77,7 @@ public:
     Distances distances() const override {
         Distances result;
         result.reserve(rays_.size());
-        for (const MeshHit& hit : hits_)
+        for (const auto& hit : hits_)
             result.push_back(hit.t);
         for (const std::uint8_t met : met_)
             result.push_back(met != 0 ? 0 : std::numeric_limits<float>::infinity());
@@ -51,16 +85,16 @@ public:
     }
 
     Steps steps() override {
-        MeshQueryCounts counts;
+        typename Kind::Counts counts;
         for_each_generation(
             rays_.size(), generation_, 1, [&](std::size_t first, std::size_t count) {
                 ask(first, count, &counts);
             });
-        return {counts.nodes, counts.triangles};
+        return {counts.nodes, Kind::tests(counts)};
     }
 
 private:
-    void ask(std::size_t first, std::size_t count, MeshQueryCounts* counts) {
+    void ask(std::size_t first, std::size_t count, typename Kind::Counts* counts) {
         const auto some = std::span(rays_).subspan(first, count);
         if (nearest_)
             index_.nearest_hits(some, std::span(hits_).subspan(first, count), counts);
@@ -76,21 +110,20 @@ private:
                 met_[i] = index_.meets_any(rays_[i]) ? 1 : 0;
     }
 
-    const MeshIndex& index_;
+    const typename Kind::Index& index_;
     bool nearest_;
     std::size_t threads_;
     std::size_t generation_;
-    std::vector<MeshRay> rays_;
-    std::vector<MeshHit> hits_;
+    std::vector<IndexRay> rays_;
+    std::vector<typename Kind::Hit> hits_;
     std::vector<std::uint8_t> met_;
 };
 
-class BuiltMeshIndex : public OurIndex {
+template <typename Kind>
+class BuiltFloatIndex : public OurIndex {
 public:
-    BuiltMeshIndex(const FloatGeometry& floats, MeshIndexQuality quality)
-        : index_(
-            {std::span(floats.corners).first(floats.corners.size() - 1), floats.triangles},
-            quality) {}
+    BuiltFloatIndex(const FloatGeometry& floats, IndexQuality quality)
+        : index_(Kind::index_of(floats, quality)) {}
 
     std::size_t bytes() const override { return index_.statistics().bytes; }
 
@@ -102,17 +135,25 @@ public:
 
     std::unique_ptr<OurQuery>
     query(const RaySet& rays, std::size_t threads, std::size_t generation) const override {
-        return std::make_unique<MeshQuery>(index_, rays, threads, generation);
+        return std::make_unique<FloatQuery<Kind>>(index_, rays, threads, generation);
     }
 
 private:
-    MeshIndex index_;
+    typename Kind::Index index_;
 };
 
 } // namespace
 
-std::unique_ptr<OurIndex> mesh_of(const IndexInput& input, MeshIndexQuality quality) {
-    return input.one_mesh ? std::make_unique<BuiltMeshIndex>(input.floats, quality) : nullptr;
+std::unique_ptr<OurIndex> mesh_of(const IndexInput& input, IndexQuality quality) {
+    if (!input.one_mesh)
+        return nullptr;
+    return std::make_unique<BuiltFloatIndex<OfMesh>>(input.floats, quality);
+}
+
+std::unique_ptr<OurIndex> spheres_of(const IndexInput& input, IndexQuality quality) {
+    if (!input.only_spheres)
+        return nullptr;
+    return std::make_unique<BuiltFloatIndex<OfSpheres>>(input.floats, quality);
 }
 
 } // namespace vera

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Many rays of one octant that go through the tree of a mesh together, each tested against boxes by
-// itself: see mesh_search.cpp. Compiled once for each instruction set.
+// Many rays of one octant that go through a tree of boxes together, each tested against boxes by
+// itself: see float_search-inl.h. Compiled once for each instruction set.
 
-#if defined(VERA_ACCEL_MESH_STREAMS_INL_H) == defined(HWY_TARGET_TOGGLE)
-#ifdef VERA_ACCEL_MESH_STREAMS_INL_H
-#undef VERA_ACCEL_MESH_STREAMS_INL_H
+#if defined(VERA_ACCEL_FLOAT_STREAMS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef VERA_ACCEL_FLOAT_STREAMS_INL_H
+#undef VERA_ACCEL_FLOAT_STREAMS_INL_H
 #else
-#define VERA_ACCEL_MESH_STREAMS_INL_H
+#define VERA_ACCEL_FLOAT_STREAMS_INL_H
 #endif
 
-#include "vera/accel/mesh_singles-inl.h"
+#include "vera/accel/float_singles-inl.h"
 #include "vera/accel/tree_streams-inl.h"
 
 #include <algorithm>

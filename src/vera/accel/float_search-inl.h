@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: Apache-2.0
+// Searches a tree of boxes of single precision for what rays meet. Sixteen rays that follow each
+// other and start at one place go through it as a beam (float_beams-inl.h), others in streams of
+// one octant (float_streams-inl.h), one alone by itself (float_singles-inl.h). Single precision
+// settles what it is sure of; the rest is decided in double precision, and so are the numbers of
+// each hit. Compiled once for each instruction set, and for each kind of tree: see FloatTree.
+
+#if defined(VERA_ACCEL_FLOAT_SEARCH_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef VERA_ACCEL_FLOAT_SEARCH_INL_H
+#undef VERA_ACCEL_FLOAT_SEARCH_INL_H
+#else
+#define VERA_ACCEL_FLOAT_SEARCH_INL_H
+#endif
+
+#include "vera/accel/float_hits-inl.h"
+#include "vera/accel/float_walks-inl.h"
+#include "vera/accel/float_workspace-inl.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+
+namespace vera::detail::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Lets the processor fetch the rays of the next group.
+HWY_INLINE void fetch_rays(std::span<const IndexRay> rays, std::size_t first) {
+    constexpr std::size_t rays_of_line = 2;
+    const std::size_t end = std::min(rays.size(), first + group_size);
+    for (std::size_t i = first; i < end; i += rays_of_line)
+        hwy::Prefetch(&rays[i]);
+}
+
+/// Numbers of single rays, octant by octant, and how many streams there are.
+template <typename Tree>
+struct Gathered {
+    std::array<std::array<std::uint16_t, rays_at_once<Tree>>, octant_count> of_octant;
+    std::array<std::size_t, octant_count> counts = {};
+    std::size_t streams = 0;
+};
+
+/// The number of the first of the group's rays among all.
+template <typename Tree>
+HWY_INLINE std::size_t first_ray(const Search<Tree>& search, const RayGroup& group) {
+    return static_cast<std::size_t>(&group - search.space.groups.data()) * group_size;
+}
+
+/// Adds the group's rays to those that go through the tree in streams from the root on.
+template <typename Tree>
+HWY_INLINE void gather(const Search<Tree>& search, RayGroup& group, Gathered<Tree>& gathered) {
+    const std::size_t first = first_ray(search, group);
+    write_singles(group, &search.space.singles[first]);
+    add_numbers(search, group, &search.space.singles[first]);
+    const auto backward = backward_lanes(group);
+    for (std::size_t octant = 0; octant < octant_count; ++octant) {
+        GroupMask lanes = group.followed;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            lanes &= (octant >> axis & 1U) != 0 ? backward[axis] : ~backward[axis];
+        std::size_t& count = gathered.counts[octant];
+        std::uint16_t* const numbers = gathered.of_octant[octant].data();
+        for (; lanes != 0; lanes &= lanes - 1)
+            numbers[count++] = static_cast<std::uint16_t>(
+                first + static_cast<std::size_t>(std::countr_zero(lanes)));
+    }
+}
+
+/// Makes a stream of the rays of a beam, which goes on where the beam is.
+template <typename Tree>
+HWY_NOINLINE void
+go_on_as_stream(const Search<Tree>& search, const BeamWalk& beam, Gathered<Tree>& gathered) {
+    RayGroup& group = *beam.group;
+    const std::size_t first = first_ray(search, group);
+    write_singles(group, &search.space.singles[first]);
+    add_numbers(search, group, &search.space.singles[first]);
+    std::array<std::uint16_t, group_size> numbers;
+    std::size_t count = 0;
+    for (GroupMask rest = group.followed; rest != 0; rest &= rest - 1)
+        numbers[count++] =
+            static_cast<std::uint16_t>(first + static_cast<std::size_t>(std::countr_zero(rest)));
+    RayStream& stream =
+        start_stream(search, gathered.streams++, {numbers.data(), count}, beam.order, false);
+    for (std::size_t i = 0; i < beam.size; ++i)
+        stream.stack.push(beam.stack[i], stream.left);
+    stream.stack.push(beam.next, stream.left);
+}
+
+/// Sets the rays that were gathered on their way, and follows all streams.
+template <bool any, typename Tree>
+HWY_INLINE void follow_gathered(const Search<Tree>& search, Gathered<Tree>& gathered) {
+    for (std::size_t octant = 0; octant < octant_count; ++octant)
+        for (std::size_t i = 0; i < gathered.counts[octant]; i += stream_size) {
+            RayStream& stream = start_stream(
+                search,
+                gathered.streams++,
+                {&gathered.of_octant[octant][i],
+                 std::min(stream_size, gathered.counts[octant] - i)},
+                octant,
+                any);
+            stream.stack.push(TreeChild::node(0), stream.left);
+        }
+    if (gathered.streams > 0)
+        follow_streams<any>(search, gathered.streams);
+}
+
+/// Up to rays_at_once rays through the tree; returns in how many groups.
+template <typename Tree>
+HWY_INLINE std::size_t
+follow_to_nearest(const Search<Tree>& search, std::span<const IndexRay> rays) {
+    Workspace& space = search.space;
+    space.doubtful.clear();
+    std::size_t groups = 0;
+    std::size_t beams = 0;
+    Gathered<Tree> gathered;
+    const auto follow = [&]() HWY_ATTR {
+        for (std::uint32_t rest = follow_beams(search, beams); rest != 0; rest &= rest - 1)
+            go_on_as_stream(
+                search, space.beams[static_cast<std::size_t>(std::countr_zero(rest))], gathered);
+        beams = 0;
+    };
+    for (std::size_t first = 0; first < rays.size(); first += group_size) {
+        RayGroup& group = space.groups[groups++];
+        fetch_rays(rays, first + group_size);
+        start_group(
+            search.tree, rays.subspan(first, std::min(group_size, rays.size() - first)), group);
+        add_rows(search, group);
+        if (std::popcount(group.followed) <= few_rays
+            || !start_beam(group, stack_of(search, beams), space.beams[beams]))
+            gather(search, group, gathered);
+        else if (++beams == beams_at_once)
+            follow();
+    }
+    if (beams > 0)
+        follow();
+    follow_gathered<false>(search, gathered);
+    return groups;
+}
+
+/// The same for rays of which only is asked whether they meet anything.
+template <typename Tree>
+HWY_INLINE std::size_t follow_to_any(const Search<Tree>& search, std::span<const IndexRay> rays) {
+    std::size_t groups = 0;
+    Gathered<Tree> gathered;
+    for (std::size_t first = 0; first < rays.size(); first += group_size) {
+        RayGroup& group = search.space.groups[groups++];
+        fetch_rays(rays, first + group_size);
+        start_group(
+            search.tree, rays.subspan(first, std::min(group_size, rays.size() - first)), group);
+        add_rows(search, group);
+        gather(search, group, gathered);
+    }
+    follow_gathered<true>(search, gathered);
+    return groups;
+}
+
+/// What waits for one ray; the next one is on top.
+struct SingleStack {
+    TreeChild* children;
+    std::size_t size;
+
+    /// Takes the next one that is not behind the limit; false when there is none.
+    bool take(float limit, TreeChild& next) {
+        while (size > 0) {
+            next = children[--size];
+            if (next.near() <= limit)
+                return true;
+        }
+        return false;
+    }
+};
+
+/// Follows one ray of an octant down from the root; true when it is only asked whether it meets
+/// anything, and it does.
+template <bool any, typename Tree>
+HWY_INLINE bool follow_single(const Search<Tree>& search, std::size_t octant, SingleRay& ray) {
+    const Tree& tree = search.tree;
+    const Children d;
+    const auto all = [&](float number) HWY_ATTR { return hn::Set(d, number); };
+    const auto places = plane_places[octant];
+    const auto inverse_x = all(ray.inverse[0]);
+    const auto inverse_y = all(ray.inverse[1]);
+    const auto inverse_z = all(ray.inverse[2]);
+    const auto near_x = all(ray.near_offset[0]);
+    const auto near_y = all(ray.near_offset[1]);
+    const auto near_z = all(ray.near_offset[2]);
+    const auto far_x = all(ray.far_offset[0]);
+    const auto far_y = all(ray.far_offset[1]);
+    const auto far_z = all(ray.far_offset[2]);
+    SingleStack stack = {stack_of(search, 0), 0};
+    TreeChild next = TreeChild::node(0);
+    while (true) {
+        while (next.is_block() == 0) {
+            ++search.counts.nodes;
+            const WideNode& node = tree.nodes[next.first()];
+            const float* const planes = node.planes[0].data();
+            const auto plane = [&](std::size_t j, std::size_t i)
+                                   HWY_ATTR { return hn::Load(d, planes + places[j] + i); };
+            const auto near_at = [&](std::size_t i) HWY_ATTR {
+                return hn::Max(
+                    hn::Max(
+                        hn::MulAdd(plane(0, i), inverse_x, near_x),
+                        hn::MulAdd(plane(1, i), inverse_y, near_y)),
+                    hn::Max(hn::MulAdd(plane(2, i), inverse_z, near_z), hn::Zero(d)));
+            };
+            const auto far_at = [&](std::size_t i) HWY_ATTR {
+                return hn::Min(
+                    hn::Min(
+                        hn::MulAdd(plane(3, i), inverse_x, far_x),
+                        hn::MulAdd(plane(4, i), inverse_y, far_y)),
+                    hn::Min(hn::MulAdd(plane(5, i), inverse_z, far_z), all(ray.limit)));
+            };
+            if constexpr (any) {
+                // With a branch, which the processor follows before it knows, it has the memory of
+                // the next node under way. Where the order counts, it would be guessed wrongly too
+                // often.
+                std::uint32_t met = 0;
+                for (std::size_t i = 0; i < tree_width; i += hn::Lanes(d))
+                    met |= bits_of(d, hn::Le(near_at(i), far_at(i))) << i;
+                for (; met != 0; met ^= std::bit_floor(met))
+                    stack.children[stack.size++] = TreeChild::waiting(
+                        node.children[static_cast<std::size_t>(std::bit_width(met) - 1)], 0);
+            } else {
+                stack.size +=
+                    put_met_children(node, octant, near_at, far_at, stack.children + stack.size);
+            }
+            if (!stack.take(ray.limit, next))
+                return false;
+        }
+        if (visit_leaf<any>(search, next, ray))
+            return true;
+        if (!stack.take(ray.limit, next))
+            return false;
+    }
+}
+
+/// The hit of a ray that was followed alone.
+template <typename Tree>
+HWY_INLINE typename Tree::Hit
+hit_of_single(const Search<Tree>& search, const SingleRay& ray, float per_t_scale) {
+    const RayGroup& group = *ray.group;
+    if (HWY_UNLIKELY(group.in_doubt != 0))
+        return decide_doubtful(search, *ray.given, ray.leaf, ray.place, group.doubtful[0]);
+    if (ray.place == no_place)
+        return {};
+    return sure_hit(search, ray, per_t_scale);
+}
+
+/// The nearest hits of the rays. The tree has nodes.
+template <typename Tree>
+HWY_INLINE void search_nearest_in(
+    const Tree& tree,
+    std::span<const IndexRay> rays,
+    std::span<typename Tree::Hit> hits,
+    SearchCounts& counts) {
+    const Search<Tree> search = {tree, workspace_of_this_thread(tree), counts};
+    if (rays.size() == 1) {
+        search.space.doubtful.clear();
+        SingleRay& ray = search.space.singles.front();
+        std::size_t octant = 0;
+        float per_t_scale = 1;
+        ray.group = &search.space.groups.front();
+        ray.group->in_doubt = 0;
+        if (start_single(tree, rays[0], ray, octant, per_t_scale)) {
+            add_numbers(search, ray);
+            follow_single<false>(search, octant, ray);
+            hits[0] = hit_of_single(search, ray, per_t_scale);
+        } else {
+            hits[0] = nearest_plainly(tree, rays[0]);
+        }
+        return;
+    }
+    for (std::size_t first = 0; first < rays.size(); first += rays_at_once<Tree>) {
+        const std::size_t count = std::min(rays_at_once<Tree>, rays.size() - first);
+        const std::size_t groups = follow_to_nearest(search, rays.subspan(first, count));
+        take_hits(search, groups, hits.subspan(first, count));
+    }
+}
+
+/// Whether the rays meet anything. The tree has nodes.
+template <typename Tree>
+HWY_INLINE void search_any_in(
+    const Tree& tree,
+    std::span<const IndexRay> rays,
+    std::span<std::uint8_t> met,
+    SearchCounts& counts) {
+    const Search<Tree> search = {tree, workspace_of_this_thread(tree), counts};
+    if (rays.size() == 1) {
+        SingleRay& ray = search.space.singles.front();
+        std::size_t octant = 0;
+        float per_t_scale = 1;
+        if (start_single(tree, rays[0], ray, octant, per_t_scale)) {
+            add_numbers(search, ray);
+            met[0] = follow_single<true>(search, octant, ray) ? 1 : 0;
+        } else {
+            met[0] = meets_any_plainly(tree, rays[0]) ? 1 : 0;
+        }
+        return;
+    }
+    for (std::size_t first = 0; first < rays.size(); first += rays_at_once<Tree>) {
+        const std::size_t count = std::min(rays_at_once<Tree>, rays.size() - first);
+        const std::size_t groups = follow_to_any(search, rays.subspan(first, count));
+        take_met(search, groups, met.subspan(first, count));
+    }
+}
+
+} // namespace vera::detail::HWY_NAMESPACE
+
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vera/accel/sphere_tree.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "vera/accel/sphere_search.cpp"
+#include <hwy/foreach_target.h>
+// Behind the line above, which includes this file once for each instruction set.
+#include "vera/accel/float_search-inl.h"
+#include "vera/accel/sphere_hits-inl.h"
+#include "vera/accel/sphere_leaves-inl.h"
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+
+namespace vera::detail::HWY_NAMESPACE {
+
+void search_nearest_kernel(
+    const SphereTree& tree,
+    std::span<const IndexRay> rays,
+    std::span<SphereHit> hits,
+    SearchCounts& counts) {
+    search_nearest_in(tree, rays, hits, counts);
+}
+
+void search_any_kernel(
+    const SphereTree& tree,
+    std::span<const IndexRay> rays,
+    std::span<std::uint8_t> met,
+    SearchCounts& counts) {
+    search_any_in(tree, rays, met, counts);
+}
+
+} // namespace vera::detail::HWY_NAMESPACE
+
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+
+namespace vera::detail {
+
+HWY_EXPORT(search_nearest_kernel);
+HWY_EXPORT(search_any_kernel);
+
+void search_nearest(
+    const SphereTree& tree,
+    std::span<const IndexRay> rays,
+    std::span<SphereHit> hits,
+    SearchCounts& counts) {
+    if (tree.nodes.empty()) {
+        std::fill(hits.begin(), hits.end(), SphereHit{});
+        return;
+    }
+    HWY_DYNAMIC_DISPATCH(search_nearest_kernel)(tree, rays, hits, counts);
+}
+
+void search_any(
+    const SphereTree& tree,
+    std::span<const IndexRay> rays,
+    std::span<std::uint8_t> met,
+    SearchCounts& counts) {
+    if (tree.nodes.empty()) {
+        std::fill(met.begin(), met.end(), std::uint8_t{0});
+        return;
+    }
+    HWY_DYNAMIC_DISPATCH(search_any_kernel)(tree, rays, met, counts);
+}
+
+} // namespace vera::detail
+
+#endif
