@@ -52,7 +52,7 @@ nlohmann::ordered_json as_json(const CellCounts& counts) {
         {"depth_orders", counts.depth_orders}};
 }
 
-nlohmann::ordered_json as_json(const SweepCounts& counts) {
+nlohmann::ordered_json as_json(const PlaneSweepCounts& counts) {
     return {
         {"segments", counts.segments},
         {"corners", counts.corners},
@@ -76,7 +76,7 @@ nlohmann::ordered_json as_json(const SweepCounts& counts) {
 /// By cells or by sweep; the steps are counted where json is given.
 VisiblePieces found(const ScreenScene& scene, bool by_sweep, nlohmann::ordered_json* json) {
     if (by_sweep) {
-        SweepCounts counts;
+        PlaneSweepCounts counts;
         PlaneSweepSettings settings;
         settings.counts = &counts;
         VisiblePieces pieces = plane_sweep(scene, settings);

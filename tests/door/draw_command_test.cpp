@@ -45,6 +45,27 @@ std::size_t count_of(const std::string& text, std::string_view part) {
     return count;
 }
 
+/// A hill that stands in a floor which goes to the horizon: for the breadth of a facet the floor
+/// comes before the hill within a step of an edge that it is cut by, so that nothing of either
+/// parts them there.
+TEST(DrawCommand, DrawsALineWhereThingsPassThroughEachOtherWithoutAGap) {
+    const ScratchFolder folder;
+    folder.write(
+        "hill.vera",
+        "PROJECTION 2.20 1.30 17.00  -2.24 -0.15 0.20  2.42 -0.15 -0.38  -2.22 4.15 0.38\n"
+        "CM grass  P4 -400 0 -600  -400 0 60  400 0 60  400 0 -600\n"
+        "CM hill   RS -90 -18 -260  V 0 1 0  AN 120 0  KE 60 44 0.6  0 44\n"
+        "MA grass  DRF 0.3 0.4 0.1\n"
+        "MA hill   DRF 0.2 0.3 0.2\n");
+    const ProgramRun run = run_vera(folder, "draw hill.vera -o hill.svg --style lines");
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const std::string svg = folder.read("hill.svg");
+    const std::size_t group = svg.find("<g id=\"intersection-lines\"");
+    ASSERT_NE(group, std::string::npos);
+    const std::string lines = svg.substr(group, svg.find("</g>", group) - group);
+    EXPECT_EQ(count_of(lines, "<path"), 1U) << lines;
+}
+
 TEST(DrawCommand, WritesEveryFormatByExtensionAndByName) {
     const ScratchFolder folder;
     folder.write("a.vera", small_scene);

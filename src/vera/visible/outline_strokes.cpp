@@ -75,8 +75,9 @@ void add_joined_parts(
             continue;
         LinePart& part = parts.emplace_back();
         part.ends = one.ends;
-        part.step = step(
-            sources.pieces.points[one.ends[0]].whole, sources.pieces.points[one.ends[1]].whole);
+        const RationalPoint begin = sources.pieces.points[one.ends[0]];
+        const RationalPoint end = sources.pieces.points[one.ends[1]];
+        part.step = step(begin.whole, end.whole);
         part.line_class = *line_class;
         part.faces = {one.face, other.face};
     }
