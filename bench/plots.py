@@ -34,19 +34,20 @@ RAYS = {"primary": "view rays", "shadow": "shadow rays", "mirror": "mirrored ray
 class Results:
     """What was measured on a machine; None for a part that was not."""
 
+    KINDS = ("peers", "errors", "rays", "growth", "billion", "drawings", "engines", "faces", "leaks", "sizes")
+
     def __init__(self, name):
         self.machine = name
         (self.peers, self.errors, self.rays, self.growth, self.billion, self.drawings, self.engines, self.faces, self.leaks,
-         self.sizes) = (self.load(kind) for kind in (
-             "peers", "errors", "rays", "growth", "billion", "drawings", "engines", "faces", "leaks", "sizes"))
+         self.sizes) = (self.load(kind) for kind in self.KINDS)
 
     def load(self, kind):
         path = RESULTS / f"{kind}-{self.machine}.json"
         return json.loads(path.read_text()) if path.exists() else None
 
     def parts(self):
-        return [part for part in (self.peers, self.errors, self.rays, self.growth, self.billion, self.drawings, self.engines,
-                                  self.faces, self.leaks, self.sizes) if part]
+        """By kind, those that were."""
+        return {kind: getattr(self, kind) for kind in self.KINDS if getattr(self, kind)}
 
     def rays_on(self, threads):
         """The measurement with so many threads; None where there is none."""
@@ -374,16 +375,22 @@ def cell(value, digits=3):
 
 
 def machine_table(results):
-    machines = [part["machine"] for part in results.parts()]
+    """A column for each machine of the name: what is measured anew need not be measured on the same one."""
+    machines = {}
+    for kind, part in results.parts().items():
+        host = {key: str(value) for key, value in part["machine"].items() if key not in ("name", "system")}
+        machines.setdefault(tuple(host.items()), []).append(kind)
     if not machines:
         return None
-    host = max(machines, key=len)
     names = {"cpu": "processor", "family": "its family", "processors": "processors", "instructions": "instructions",
-             "memory": "memory", "system": "system"}
-    rows = [[name, str(host[key])] for key, name in names.items() if key in host]
+             "memory": "memory"}
+    rows = [["measured", *(", ".join(kinds) for kinds in machines.values())]]
+    rows += [[name, *(dict(host).get(key, "") for host in machines)] for key, name in names.items()]
     if results.rays:
-        rows.append(["Embree", results.rays["measurements"][0]["embree"]])
-    return "\n".join(["| | |", "| --- | --- |", *(f"| {name} | {value} |" for name, value in rows)])
+        embree = results.rays["measurements"][0]["embree"]
+        rows.append(["Embree", *(embree if "rays" in kinds else "" for kinds in machines.values())])
+    head = ["| | " + " | ".join("" for _ in machines) + "|", "| --- | " + " | ".join("---" for _ in machines) + " |"]
+    return "\n".join([*head, *("| " + " | ".join(row) + " |" for row in rows)])
 
 
 def means_table(results):
