@@ -4,15 +4,14 @@
 #include "vera/accel/simd_level.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <functional>
 #include <ostream>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "expected_answers.h"
 #include "mesh_brute_force.h"
 #include "sample_mesh.h"
 #include <gmock/gmock.h>
@@ -27,6 +26,8 @@ using testing::brute_force_answers;
 using testing::close_layers;
 using testing::coherent_mesh_rays;
 using testing::cube;
+using testing::expect_answers;
+using testing::expect_answers_by_spans;
 using ::testing::HasSubstr;
 using testing::MeshAnswer;
 using testing::MeshPoint;
@@ -39,99 +40,11 @@ using testing::rough_sphere;
 using testing::SampleMesh;
 using testing::scaled_and_shifted;
 using testing::sphere;
+using testing::told;
 using testing::with_broken_vertices;
 
 constexpr MeshIndexQuality both_qualities[] = {MeshIndexQuality::usual, MeshIndexQuality::high};
 constexpr float infinity = std::numeric_limits<float>::infinity();
-
-std::string told(const MeshHit& hit) {
-    std::ostringstream text;
-    text << std::hexfloat << hit.t << " of " << hit.triangle << " at " << hit.u << " " << hit.v;
-    return text.str();
-}
-
-std::string told(const MeshRay& ray) {
-    std::ostringstream text;
-    text << std::hexfloat << "origin";
-    for (const float x : ray.origin)
-        text << " " << x;
-    text << " direction";
-    for (const float x : ray.direction)
-        text << " " << x;
-    text << " from " << ray.t_min << " to " << ray.t_max;
-    return text.str();
-}
-
-bool same_bits(const MeshHit& a, const MeshHit& b) {
-    using Bits = std::array<std::uint32_t, 4>;
-    return std::bit_cast<Bits>(a) == std::bit_cast<Bits>(b);
-}
-
-bool same_bits(const std::vector<MeshHit>& a, const std::vector<MeshHit>& b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) {
-        return same_bits(x, y);
-    });
-}
-
-void expect_answers_one_by_one(
-    const MeshIndex& index,
-    const std::vector<MeshRay>& rays,
-    const std::vector<MeshAnswer>& expected,
-    const std::string& what) {
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        const MeshHit nearest = index.nearest_hit(rays[i]);
-        ASSERT_TRUE(same_bits(nearest, expected[i].nearest))
-            << what << ", ray " << i << ": found " << told(nearest) << ", expected "
-            << told(expected[i].nearest) << "\n"
-            << told(rays[i]);
-        ASSERT_EQ(index.meets_any(rays[i]), expected[i].met) << what << ", ray " << i << "\n"
-                                                             << told(rays[i]);
-        const std::vector<MeshHit> all = index.all_hits(rays[i]);
-        ASSERT_TRUE(same_bits(all, expected[i].all))
-            << what << ", ray " << i << ": found " << all.size() << " hits, expected "
-            << expected[i].all.size() << "\n"
-            << told(rays[i]);
-    }
-}
-
-void expect_answers_by_spans(
-    const MeshIndex& index,
-    const std::vector<MeshRay>& rays,
-    const std::vector<MeshAnswer>& expected,
-    std::size_t span_size,
-    const std::string& what) {
-    std::vector<MeshHit> hits(rays.size());
-    std::vector<std::uint8_t> met(rays.size(), 7);
-    for (std::size_t first = 0; first < rays.size(); first += span_size) {
-        const std::size_t count = std::min(span_size, rays.size() - first);
-        const auto some_rays = std::span(rays).subspan(first, count);
-        index.nearest_hits(some_rays, std::span(hits).subspan(first, count));
-        index.meet_any(some_rays, std::span(met).subspan(first, count));
-    }
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        ASSERT_TRUE(same_bits(hits[i], expected[i].nearest))
-            << what << ", ray " << i << " in spans of " << span_size << ": found " << told(hits[i])
-            << ", expected " << told(expected[i].nearest) << "\n"
-            << told(rays[i]);
-        ASSERT_EQ(met[i], expected[i].met ? 1 : 0)
-            << what << ", ray " << i << " in spans of " << span_size << "\n"
-            << told(rays[i]);
-    }
-}
-
-/// Asks in every way there is.
-void expect_answers(
-    const MeshIndex& index,
-    const std::vector<MeshRay>& rays,
-    const std::vector<MeshAnswer>& expected,
-    const std::string& what) {
-    expect_answers_one_by_one(index, rays, expected, what);
-    for (const std::size_t span_size : {1U, 15U, 16U, 17U, 33U, 257U, 1000U}) {
-        if (::testing::Test::HasFailure())
-            return;
-        expect_answers_by_spans(index, rays, expected, span_size, what);
-    }
-}
 
 /// Rays of all sorts, some of which begin and end just where others meet the mesh.
 std::vector<MeshRay> rays_of_all_sorts(const SampleMesh& mesh, std::uint64_t seed) {

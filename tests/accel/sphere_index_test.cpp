@@ -4,16 +4,14 @@
 #include "vera/accel/sphere_index.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <functional>
 #include <ostream>
-#include <span>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "expected_answers.h"
 #include "sample_spheres.h"
 #include "sphere_brute_force.h"
 #include <gmock/gmock.h>
@@ -27,6 +25,7 @@ using testing::brute_force_answer;
 using testing::brute_force_answers;
 using testing::close_shells;
 using testing::coherent_mesh_rays;
+using testing::expect_answers;
 using testing::mixed_spheres;
 using testing::places_about;
 using testing::random_mesh_rays;
@@ -37,99 +36,11 @@ using testing::SampleMesh;
 using testing::SampleSpheres;
 using testing::scaled_and_shifted;
 using testing::SphereAnswer;
+using testing::told;
 using testing::with_broken_numbers;
 
 constexpr IndexQuality both_qualities[] = {IndexQuality::usual, IndexQuality::high};
 constexpr float infinity = std::numeric_limits<float>::infinity();
-
-std::string told(const SphereHit& hit) {
-    std::ostringstream text;
-    text << std::hexfloat << hit.t << " of " << hit.sphere;
-    return text.str();
-}
-
-std::string told(const IndexRay& ray) {
-    std::ostringstream text;
-    text << std::hexfloat << "origin";
-    for (const float x : ray.origin)
-        text << " " << x;
-    text << " direction";
-    for (const float x : ray.direction)
-        text << " " << x;
-    text << " from " << ray.t_min << " to " << ray.t_max;
-    return text.str();
-}
-
-bool same_bits(const SphereHit& a, const SphereHit& b) {
-    using Bits = std::array<std::uint32_t, 2>;
-    return std::bit_cast<Bits>(a) == std::bit_cast<Bits>(b);
-}
-
-bool same_bits(const std::vector<SphereHit>& a, const std::vector<SphereHit>& b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) {
-        return same_bits(x, y);
-    });
-}
-
-void expect_answers_one_by_one(
-    const SphereIndex& index,
-    const std::vector<IndexRay>& rays,
-    const std::vector<SphereAnswer>& expected,
-    const std::string& what) {
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        const SphereHit nearest = index.nearest_hit(rays[i]);
-        ASSERT_TRUE(same_bits(nearest, expected[i].nearest))
-            << what << ", ray " << i << ": found " << told(nearest) << ", expected "
-            << told(expected[i].nearest) << "\n"
-            << told(rays[i]);
-        ASSERT_EQ(index.meets_any(rays[i]), expected[i].met) << what << ", ray " << i << "\n"
-                                                             << told(rays[i]);
-        const std::vector<SphereHit> all = index.all_hits(rays[i]);
-        ASSERT_TRUE(same_bits(all, expected[i].all))
-            << what << ", ray " << i << ": found " << all.size() << " hits, expected "
-            << expected[i].all.size() << "\n"
-            << told(rays[i]);
-    }
-}
-
-void expect_answers_by_spans(
-    const SphereIndex& index,
-    const std::vector<IndexRay>& rays,
-    const std::vector<SphereAnswer>& expected,
-    std::size_t span_size,
-    const std::string& what) {
-    std::vector<SphereHit> hits(rays.size());
-    std::vector<std::uint8_t> met(rays.size(), 7);
-    for (std::size_t first = 0; first < rays.size(); first += span_size) {
-        const std::size_t count = std::min(span_size, rays.size() - first);
-        const auto some_rays = std::span(rays).subspan(first, count);
-        index.nearest_hits(some_rays, std::span(hits).subspan(first, count));
-        index.meet_any(some_rays, std::span(met).subspan(first, count));
-    }
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        ASSERT_TRUE(same_bits(hits[i], expected[i].nearest))
-            << what << ", ray " << i << " in spans of " << span_size << ": found " << told(hits[i])
-            << ", expected " << told(expected[i].nearest) << "\n"
-            << told(rays[i]);
-        ASSERT_EQ(met[i], expected[i].met ? 1 : 0)
-            << what << ", ray " << i << " in spans of " << span_size << "\n"
-            << told(rays[i]);
-    }
-}
-
-/// Asks in every way there is.
-void expect_answers(
-    const SphereIndex& index,
-    const std::vector<IndexRay>& rays,
-    const std::vector<SphereAnswer>& expected,
-    const std::string& what) {
-    expect_answers_one_by_one(index, rays, expected, what);
-    for (const std::size_t span_size : {1U, 15U, 16U, 17U, 33U, 257U, 1000U}) {
-        if (::testing::Test::HasFailure())
-            return;
-        expect_answers_by_spans(index, rays, expected, span_size, what);
-    }
-}
 
 /// Rays of all sorts, some of which begin and end just where others meet the spheres.
 std::vector<IndexRay> rays_of_all_sorts(const SampleSpheres& spheres, std::uint64_t seed) {

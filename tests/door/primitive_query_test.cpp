@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "door/program.h"
+#include "door/picture.h"
 #include <nlohmann/json.hpp>
 
 namespace vera {
@@ -34,15 +34,6 @@ const char* const degenerate_scene = "PROJECTION 0 0 8  -2 -2 0  2 -2 0  -2 2 0\
                                      "P3 0.5 0 0.5  0.5 0 -0.5  0 1 0.5\n"
                                      "P4 -0.5 0 -0.5  0.5 0 -0.5  0.5 0 0.5  -0.5 0 0.5\n";
 
-/// The bytes of a picture without what its header tells of how it was made.
-std::string
-picture(const ScratchFolder& folder, const std::string& scene, const std::string& options) {
-    const ProgramRun run =
-        run_vera(folder, "render " + scene + " -q --format ppm -o a.ppm " + options);
-    EXPECT_EQ(run.exit_code, 0) << options << '\n' << run.err;
-    return folder.read("a.ppm");
-}
-
 class PrimitiveQueryOf : public testing::TestWithParam<const char*> {};
 
 TEST_P(PrimitiveQueryOf, GivesTheSamePictureAsRaysToTheByte) {
@@ -50,7 +41,7 @@ TEST_P(PrimitiveQueryOf, GivesTheSamePictureAsRaysToTheByte) {
     const std::string scene = std::string(VERA_SOURCE_DIR "/scenes/") + GetParam();
     for (const char* antialias : {"on", "off"}) {
         const std::string options = "-c " + scene + ".ctl --raster 32x24 --antialias " + antialias;
-        const std::string expected = picture(folder, scene + ".vera", options);
+        const auto expected = picture(folder, scene + ".vera", options);
         for (const char* queries : {"auto", "trees"})
             EXPECT_TRUE(
                 picture(
@@ -72,7 +63,7 @@ TEST(PrimitiveQuery, GivesTheSamePictureHoweverItAsks) {
     const ScratchFolder folder;
     folder.write("a.vera", degenerate_scene);
     const std::string options = "--raster 60x60 --antialias off --depth 4";
-    const std::string expected = picture(folder, "a.vera", options);
+    const auto expected = picture(folder, "a.vera", options);
     for (const char* more :
          {"",
           " --queries sweep",

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // The three strategies of a picture, by the program as users run it.
-#include "vera/image/image_file.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -9,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "door/program.h"
+#include "door/picture.h"
 
 namespace vera {
 namespace {
@@ -40,27 +38,6 @@ const char* const plane_scene = "PROJECTION 1 4 12  -4 -1 0  4 -1 0  -4 5 0\n"
                                 "P3 1 0 1  1 0 -1  0 2 0\n"
                                 "P3 1 0 -1  -1 0 -1  0 2 0\n"
                                 "P3 -1 0 -1  -1 0 1  0 2 0\n";
-
-std::vector<std::uint8_t>
-picture(const ScratchFolder& folder, const std::string& scene, const std::string& options) {
-    const ProgramRun run =
-        run_vera(folder, "render " + scene + " -q --format ppm -o a.ppm " + options);
-    EXPECT_EQ(run.exit_code, 0) << options << '\n' << run.err;
-    return std::get<std::vector<std::uint8_t>>(read_image(folder.path() / "a.ppm").samples);
-}
-
-std::size_t
-different_pixels(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < a.size(); i += 3)
-        count += std::equal(
-                     a.begin() + static_cast<std::ptrdiff_t>(i),
-                     a.begin() + static_cast<std::ptrdiff_t>(i) + 3,
-                     b.begin() + static_cast<std::ptrdiff_t>(i))
-            ? 0
-            : 1;
-    return count;
-}
 
 TEST(Strategy, GivesTheSamePictureOfPlaneFacesToTheByte) {
     // Of rasters in which no pixel has its middle on an edge.

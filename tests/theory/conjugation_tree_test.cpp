@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/base/available_memory.h"
 #include "vera/theory/conjugation_tree.h"
+#include "vera/theory/plane_points.h"
 
 #include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
-#include "theory/plane_points.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace vera {
 namespace {
-
-using testing::PlanePoints;
 
 /// The bound of the header, on how many nodes a query with one border looks at.
 std::uint64_t most_nodes(std::size_t height) {
@@ -67,13 +65,12 @@ std::size_t height(const ConjugationTree& tree, std::uint32_t node = 0) {
 TEST(ConjugationTree, FindsWhatLookingAtEachPointFinds) {
     std::mt19937_64 random(1988);
     std::size_t some = 0;
-    for (const testing::PointFamily& family : testing::point_families())
+    for (const PointFamily& family : point_families())
         for (int round = 0; round < 300; ++round) {
             const PlanePoints points = family.points(1 + random() % 60, random);
             const ConjugationTree tree(points, 1 + random() % 4);
             for (int query = 0; query < 40; ++query) {
-                const PlaneStrip strip =
-                    testing::strip_near(points, testing::some_normal(points, random), random);
+                const PlaneStrip strip = strip_near(points, some_normal(points, random), random);
                 const auto expected = brute_force_numbers_in(points, strip);
                 ASSERT_EQ(tree.numbers_in(strip), expected) << family.name;
                 ASSERT_EQ(tree.count(strip), expected.size()) << family.name;
@@ -85,13 +82,13 @@ TEST(ConjugationTree, FindsWhatLookingAtEachPointFinds) {
 
 TEST(ConjugationTree, OfFourQuartersABorderCrossesThree) {
     std::mt19937_64 random(3);
-    for (const testing::PointFamily& family : testing::point_families())
+    for (const PointFamily& family : point_families())
         for (int round = 0; round < 40; ++round) {
             const PlanePoints points = family.points(60, random);
             const ConjugationTree tree(points, 1);
             for (int query = 0; query < 40; ++query) {
                 const PlaneStrip half =
-                    half_plane_near(points, testing::some_normal(points, random), random);
+                    half_plane_near(points, some_normal(points, random), random);
                 ASSERT_LE(CrossedNodes(tree, half).most_grandchildren(), 3) << family.name;
             }
         }
@@ -99,15 +96,14 @@ TEST(ConjugationTree, OfFourQuartersABorderCrossesThree) {
 
 TEST(ConjugationTree, LooksAtNoMoreNodesThanTheBoundSays) {
     std::mt19937_64 random(4);
-    for (const testing::PointFamily& family : testing::point_families())
+    for (const PointFamily& family : point_families())
         for (const std::size_t count : {50U, 400U, 3000U}) {
             const PlanePoints points = family.points(count, random);
             const ConjugationTree tree(points, 1);
             const std::uint64_t bound = most_nodes(height(tree));
             for (int query = 0; query < 200; ++query) {
                 StepCounts counts;
-                const PlaneStrip strip =
-                    testing::strip_near(points, testing::some_normal(points, random), random);
+                const PlaneStrip strip = strip_near(points, some_normal(points, random), random);
                 tree.count(strip, &counts);
                 const bool is_half_plane =
                     strip.lowest == PlaneStrip().lowest || strip.highest == PlaneStrip().highest;
@@ -119,7 +115,7 @@ TEST(ConjugationTree, LooksAtNoMoreNodesThanTheBoundSays) {
 
 TEST(ConjugationTree, TakesNoMoreMemoryThanForecast) {
     std::mt19937_64 random(6);
-    for (const testing::PointFamily& family : testing::point_families())
+    for (const PointFamily& family : point_families())
         for (const std::size_t count : {1U, 2U, 77U, 1000U, 5000U})
             for (const std::size_t leaf_size : {1U, 8U, 100U}) {
                 const PlanePoints points = family.points(count, random);
@@ -128,7 +124,7 @@ TEST(ConjugationTree, TakesNoMoreMemoryThanForecast) {
                     << family.name << ' ' << count << ' ' << leaf_size;
             }
     // Where each point is a vertex, that is about what it takes.
-    const PlanePoints circle = testing::circle_points(5000, random);
+    const PlanePoints circle = circle_points(5000, random);
     EXPECT_GT(
         static_cast<double>(ConjugationTree(circle).bytes()),
         0.7 * ConjugationTree::bytes_forecast(5000));
@@ -188,7 +184,7 @@ TEST(ConjugationTree, RefusesWhatItsNumbersCannotHold) {
 
 TEST(ConjugationTree, TellsHowFarItIsAndCanBeStopped) {
     std::mt19937_64 random(7);
-    const PlanePoints points = testing::scattered_points(2000, random);
+    const PlanePoints points = scattered_points(2000, random);
     double last = 0;
     const ConjugationTree tree(points, 8, [&](double done) {
         EXPECT_GE(done, last);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/base/available_memory.h"
 #include "vera/theory/grouped_sweeps.h"
+#include "vera/theory/growth.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +9,6 @@
 #include <stdexcept>
 #include <vector>
 
-#include "theory/growth.h"
 #include "theory/rectangles.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -143,7 +143,7 @@ TEST(GroupedSweeps, TakeStepsForARayThatGrowNoFasterThanThePaperSays) {
                 static_cast<double>(counts.steps()),
                 std::log2(m) * std::log2(m) * static_cast<double>(counts.events()));
         }
-        const testing::Growth found = testing::growth(sizes, of_ray);
+        const Growth found = growth(sizes, of_ray);
         EXPECT_LT(found.exponent - found.uncertainty, 0.41);
         EXPECT_LT(found.uncertainty, 0.2) << "tells nothing";
     }

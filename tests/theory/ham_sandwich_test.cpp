@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/exact/wide_integer.h"
 #include "vera/theory/ham_sandwich.h"
+#include "vera/theory/plane_points.h"
 
 #include <algorithm>
 #include <map>
 #include <string>
 
-#include "theory/plane_points.h"
 #include <gtest/gtest.h>
 
 namespace vera {
 namespace {
 
-using testing::PlanePoints;
 using Points = std::span<const PlanePoint>;
 
 struct Sides {
@@ -55,11 +54,11 @@ struct Halves {
     Points upper() const { return Points(points).subspan(middle()); }
 };
 
-Halves random_halves(const testing::PointFamily& family, std::mt19937_64& random) {
+Halves random_halves(const PointFamily& family, std::mt19937_64& random) {
     Halves made;
     made.points = family.points(2 + random() % 30, random);
     // Across a normal, and so in a third of the cases along the way between two of the points.
-    const PlaneDirection normal = testing::some_normal(made.points, random);
+    const PlaneDirection normal = some_normal(made.points, random);
     made.line =
         normal == PlaneDirection{} ? PlaneDirection{1, 0} : PlaneDirection{normal.y, -normal.x};
     std::sort(made.points.begin(), made.points.end(), TurnedOrder{made.line});
@@ -74,7 +73,7 @@ bool all_on_the_line(Points points, PlaneDirection line, std::int64_t at) {
 TEST(HamSandwichCut, HalvesBothSetsExactly) {
     std::mt19937_64 random(1986);
     std::map<std::string, int> own_lines;
-    for (const testing::PointFamily& family : testing::point_families())
+    for (const PointFamily& family : point_families())
         for (std::uint64_t round = 0; round < 3000; ++round) {
             const Halves made = random_halves(family, random);
             const PlaneDirection found =
@@ -99,7 +98,7 @@ TEST(HamSandwichCut, HalvesBothSetsExactly) {
 TEST(HamSandwichCut, IsTheLineItselfOnlyWhereTheMediansMeetNowhereElse) {
     std::mt19937_64 random(3);
     int without = 0;
-    for (const testing::PointFamily& family : testing::point_families())
+    for (const PointFamily& family : point_families())
         for (std::uint64_t round = 0; round < 300; ++round) {
             const Halves made = random_halves(family, random);
             const PlanePoint last = made.points[made.middle() - 1];
@@ -125,7 +124,7 @@ TEST(HamSandwichCut, IsTheLineItselfOnlyWhereTheMediansMeetNowhereElse) {
 
 TEST(HamSandwichCut, IsFoundOfManyPoints) {
     std::mt19937_64 random(4);
-    for (const testing::PointFamily& family : testing::point_families()) {
+    for (const PointFamily& family : point_families()) {
         Halves made;
         made.points = family.points(5000, random);
         made.line = {1, 0};

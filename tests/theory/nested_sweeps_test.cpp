@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/theory/grouped_sweeps.h"
+#include "vera/theory/growth.h"
 #include "vera/theory/nested_sweeps.h"
 
 #include <cmath>
 #include <random>
 #include <vector>
 
-#include "theory/growth.h"
 #include "theory/rectangles.h"
 #include <gtest/gtest.h>
 
@@ -81,7 +81,7 @@ TEST(NestedSweeps, TakeStepsForARayThatGrowNoFasterThanThePaperSays) {
         sizes.push_back(static_cast<double>(count));
         of_ray.push_back(events(stated_level(count, count), made) / static_cast<double>(count));
     }
-    const testing::Growth found = testing::growth(sizes, of_ray);
+    const Growth found = growth(sizes, of_ray);
     EXPECT_LT(found.exponent - found.uncertainty, 0.41);
     EXPECT_LT(found.uncertainty, 0.25) << "tells nothing";
 }

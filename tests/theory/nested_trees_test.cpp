@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/base/available_memory.h"
+#include "vera/theory/growth.h"
 #include "vera/theory/nested_trees.h"
 
 #include <algorithm>
@@ -11,7 +12,6 @@
 #include <string>
 #include <vector>
 
-#include "theory/growth.h"
 #include "theory/rectangles.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -132,7 +132,7 @@ TEST(NestedTrees, AnswerNothingWhereThereIsNothing) {
 /// How steps grow with the number of rectangles, whose sides are at most so many parts of the mean
 /// distance between them: with 2, rays meet some whatever their number is; with 0, none, so that
 /// nothing ends the search early.
-testing::Growth growth_of_steps(double parts, Random& random) {
+Growth growth_of_steps(double parts, Random& random) {
     constexpr std::int32_t reach = 20000;
     std::vector<double> sizes;
     std::vector<double> steps;
@@ -146,14 +146,14 @@ testing::Growth growth_of_steps(double parts, Random& random) {
         sizes.push_back(static_cast<double>(count));
         steps.push_back(static_cast<double>(counts.nodes + counts.points));
     }
-    return testing::growth(sizes, steps);
+    return growth(sizes, steps);
 }
 
 TEST(NestedTrees, TakeStepsThatGrowNoFasterThanThePaperSays) {
     constexpr double bound = 0.695; // to which a polylogarithm may add, and does not
     Random random(7);
     for (const double parts : {0., 0.5, 2.}) {
-        const testing::Growth found = growth_of_steps(parts, random);
+        const Growth found = growth_of_steps(parts, random);
         EXPECT_LT(found.exponent - found.uncertainty, bound) << parts;
         EXPECT_LT(found.uncertainty, 0.15) << parts << " tells nothing";
         RecordProperty("parts_" + std::to_string(parts), std::to_string(found.exponent));

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/base/available_memory.h"
+#include "vera/theory/growth.h"
 #include "vera/theory/nested_trees.h"
 #include "vera/theory/optimal_partition_tree.h"
+#include "vera/theory/plane_points.h"
 #include "vera/theory/tree_queries.h"
 
 #include <algorithm>
@@ -12,8 +14,6 @@
 #include <string>
 #include <vector>
 
-#include "theory/growth.h"
-#include "theory/plane_points.h"
 #include "theory/rectangles.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -22,18 +22,16 @@ namespace vera {
 namespace {
 
 using Random = std::mt19937_64;
-using testing::PlanePoints;
 
 TEST(OptimalPartitionTree, FindsWhatLookingAtEachPointFinds) {
     Random random(1988);
     std::size_t some = 0;
-    for (const testing::PointFamily& family : testing::point_families())
+    for (const PointFamily& family : point_families())
         for (int round = 0; round < 100; ++round) {
             const PlanePoints points = family.points(1 + random() % 120, random);
             const OptimalPartitionTree tree(points, 1 + random() % 4);
             for (int query = 0; query < 40; ++query) {
-                const PlaneStrip strip =
-                    testing::strip_near(points, testing::some_normal(points, random), random);
+                const PlaneStrip strip = strip_near(points, some_normal(points, random), random);
                 const auto expected = brute_force_numbers_in(points, strip);
                 ASSERT_EQ(tree.numbers_in(strip), expected) << family.name;
                 ASSERT_EQ(tree.count(strip), expected.size()) << family.name;
@@ -46,7 +44,7 @@ TEST(OptimalPartitionTree, FindsWhatLookingAtEachPointFinds) {
 TEST(OptimalPartitionTree, DividesEveryNodeOfMoreThanALeafUnlessItsPointsAreEqual) {
     Random random(2);
     for (const EqualPoints equal : {EqualPoints::together, EqualPoints::apart})
-        for (const testing::PointFamily& family : testing::point_families()) {
+        for (const PointFamily& family : point_families()) {
             const PlanePoints points = family.points(500, random);
             std::vector<std::uint32_t> numbers(points.size());
             std::iota(numbers.begin(), numbers.end(), std::uint32_t{0});
@@ -73,8 +71,7 @@ double nodes_of_queries(const PlanePoints& points, Random& random) {
     const OptimalPartitionTree tree(points, 1);
     std::uint64_t most = 0;
     for (int query = 0; query < 300; ++query) {
-        PlaneStrip strip =
-            testing::strip_near(points, testing::some_normal(points, random), random);
+        PlaneStrip strip = strip_near(points, some_normal(points, random), random);
         if (strip.highest != PlaneStrip().highest)
             strip.lowest = PlaneStrip().lowest;
         StepCounts counts;
@@ -86,14 +83,14 @@ double nodes_of_queries(const PlanePoints& points, Random& random) {
 
 TEST(OptimalPartitionTree, LooksAtNodesThatGrowNoFasterThanTheSquareRoot) {
     Random random(3);
-    for (const testing::PointFamily& family : testing::point_families()) {
+    for (const PointFamily& family : point_families()) {
         std::vector<double> sizes;
         std::vector<double> counts;
         for (std::size_t count = 128; count <= 8192; count *= 2) {
             sizes.push_back(static_cast<double>(count));
             counts.push_back(nodes_of_queries(family.points(count, random), random));
         }
-        const testing::Growth found = testing::growth(sizes, counts);
+        const Growth found = growth(sizes, counts);
         EXPECT_LT(found.exponent - found.uncertainty, 0.5) << family.name;
         EXPECT_LT(found.uncertainty, 0.15) << family.name << " tells nothing";
         EXPECT_LT(counts.back(), 12 * std::sqrt(sizes.back())) << family.name;
@@ -103,7 +100,7 @@ TEST(OptimalPartitionTree, LooksAtNodesThatGrowNoFasterThanTheSquareRoot) {
 
 TEST(OptimalPartitionTree, TakesNoMoreMemoryThanForecast) {
     Random random(4);
-    for (const testing::PointFamily& family : testing::point_families())
+    for (const PointFamily& family : point_families())
         for (const std::size_t count : {1U, 2U, 77U, 1000U, 5000U})
             for (const std::size_t leaf_size : {1U, 8U, 100U}) {
                 const PlanePoints points = family.points(count, random);
@@ -138,7 +135,7 @@ TEST(OptimalPartitionTree, OfNoPointsFindsNothingAndOfLargeOnesIsRefused) {
 
 TEST(OptimalPartitionTree, TellsHowFarItIsAndCanBeStopped) {
     Random random(5);
-    const PlanePoints points = testing::scattered_points(2000, random);
+    const PlanePoints points = scattered_points(2000, random);
     double last = 0;
     const OptimalPartitionTree tree(points, 8, [&](double done) {
         EXPECT_GE(done, last);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/theory/plane_hull.h"
+#include "vera/theory/plane_points.h"
 
 #include <algorithm>
 #include <numeric>
 
-#include "theory/plane_points.h"
 #include <gtest/gtest.h>
 
 namespace vera {
@@ -20,12 +20,12 @@ Numbers numbers_to(std::size_t count) {
 
 TEST(PlaneHull, ReachesAsFarAsThePoints) {
     std::mt19937_64 random(7);
-    for (const testing::PointFamily& family : testing::point_families())
+    for (const PointFamily& family : point_families())
         for (int round = 0; round < 300; ++round) {
             const auto points = family.points(1 + random() % 40, random);
             const PlaneHull hull = hull_of(points, numbers_to(points.size()));
             for (int query = 0; query < 10; ++query) {
-                const PlaneDirection normal = testing::some_normal(points, random);
+                const PlaneDirection normal = some_normal(points, random);
                 const auto less = [&](PlanePoint a, PlanePoint b) {
                     return dot(normal, a) < dot(normal, b);
                 };
@@ -39,7 +39,7 @@ TEST(PlaneHull, ReachesAsFarAsThePoints) {
 
 TEST(PlaneHull, OfTwoHullsIsThatOfAllTheirPoints) {
     std::mt19937_64 random(8);
-    for (const testing::PointFamily& family : testing::point_families())
+    for (const PointFamily& family : point_families())
         for (int round = 0; round < 100; ++round) {
             const auto points = family.points(2 + random() % 40, random);
             const Numbers all = numbers_to(points.size());
@@ -56,11 +56,11 @@ TEST(PlaneHull, OfTwoHullsIsThatOfAllTheirPoints) {
 
 TEST(PlaneHull, TakesAsManyStepsAsTheLogarithmOfItsVertices) {
     std::mt19937_64 random(9);
-    const auto points = testing::circle_points(20000, random);
+    const auto points = circle_points(20000, random);
     const PlaneHull hull = hull_of(points, numbers_to(points.size()));
     ASSERT_GT(hull.below.size() + hull.above.size(), 15000U);
     for (int query = 0; query < 100; ++query) {
-        const PlaneDirection normal = testing::some_normal(points, random);
+        const PlaneDirection normal = some_normal(points, random);
         // Two chains of less than 2^15 vertices, two of them a step, and the one that is found.
         EXPECT_LE(extent_along(normal, points, hull.below, hull.above).vertices, 2U * (2 * 15 + 1));
     }

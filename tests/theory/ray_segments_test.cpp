@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/base/available_memory.h"
+#include "vera/theory/growth.h"
 #include "vera/theory/ray_segments.h"
 
 #include <bit>
@@ -9,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "theory/growth.h"
 #include "theory/rectangles.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -136,10 +136,10 @@ TEST(RaySegments, GrowNoFasterThanThePaperSays) {
         steps.push_back(static_cast<double>(counts.nodes + counts.points) / std::pow(logarithm, 4));
         bytes.push_back(static_cast<double>(segments.bytes()) / std::pow(logarithm, 2));
     }
-    const testing::Growth of_steps = testing::growth(sizes, steps);
+    const Growth of_steps = growth(sizes, steps);
     EXPECT_LT(of_steps.exponent - of_steps.uncertainty, 0);
     EXPECT_LT(of_steps.uncertainty, 0.3);
-    const testing::Growth of_bytes = testing::growth(sizes, bytes);
+    const Growth of_bytes = growth(sizes, bytes);
     EXPECT_LT(of_bytes.exponent - of_bytes.uncertainty, 2);
     EXPECT_LT(of_bytes.uncertainty, 0.3);
     RecordProperty("steps", std::to_string(of_steps.exponent));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/base/available_memory.h"
+#include "vera/theory/growth.h"
 #include "vera/theory/ray_trees.h"
 #include "vera/theory/tree_queries.h"
 
@@ -10,7 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "theory/growth.h"
 #include "theory/rectangles.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -173,8 +173,7 @@ struct CountedSteps {
 };
 
 /// How the steps of so many rectangles, but for telling the rays, grow with the number of these.
-testing::Growth
-growth_of_steps(const testing::RayFamily& family, std::int32_t size, Random& random) {
+Growth growth_of_steps(const testing::RayFamily& family, std::int32_t size, Random& random) {
     constexpr std::int32_t reach = 200'000;
     std::vector<double> sizes;
     std::vector<double> steps;
@@ -186,7 +185,7 @@ growth_of_steps(const testing::RayFamily& family, std::int32_t size, Random& ran
         sizes.push_back(static_cast<double>(count));
         steps.push_back(static_cast<double>(counts.nodes + counts.points));
     }
-    return testing::growth(sizes, steps);
+    return growth(sizes, steps);
 }
 
 TEST(RayTrees, TakeStepsThatGrowNoFasterThanThePaperSays) {
@@ -194,7 +193,7 @@ TEST(RayTrees, TakeStepsThatGrowNoFasterThanThePaperSays) {
     Random random(6);
     for (const std::int32_t size : {0, 1'000'000})
         for (const testing::RayFamily& family : testing::ray_families()) {
-            const testing::Growth found = growth_of_steps(family, size, random);
+            const Growth found = growth_of_steps(family, size, random);
             EXPECT_LT(found.exponent - found.uncertainty, bound) << family.name;
             RecordProperty(
                 family.name + std::to_string(size),

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/base/available_memory.h"
+#include "vera/theory/growth.h"
 #include "vera/theory/overlaid_rectangles.h"
 #include "vera/theory/rectangle_view.h"
 #include "vera/visible/plane_sweep.h"
@@ -14,7 +15,6 @@
 #include <utility>
 #include <vector>
 
-#include "theory/growth.h"
 #include "theory/rectangle_scenes.h"
 #include <gtest/gtest.h>
 
@@ -365,9 +365,9 @@ TEST(RectangleView, TakesStepsWithWhatIsSeenAndNotWithWhatCrosses) {
         crossings.push_back(static_cast<double>(sweep.crossings));
         swept.push_back(static_cast<double>(sweep.comparisons + sweep.queued));
     }
-    EXPECT_LT(testing::growth(sizes, steps).exponent, 1.25);
-    EXPECT_GT(testing::growth(sizes, crossings).exponent, 1.9);
-    EXPECT_GT(testing::growth(sizes, swept).exponent, 1.9);
+    EXPECT_LT(growth(sizes, steps).exponent, 1.25);
+    EXPECT_GT(growth(sizes, crossings).exponent, 1.9);
+    EXPECT_GT(growth(sizes, swept).exponent, 1.9);
 }
 
 } // namespace

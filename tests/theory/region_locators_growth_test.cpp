@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How fast the steps of point location in maps grow (VERA 3.2): O(log m) a query, and O(m log m) to
 // build what answers it. Counted, and so the same on every machine.
+#include "vera/theory/growth.h"
 #include "vera/visible/cell_raster.h"
 #include "vera/visible/region_locator.h"
 
@@ -11,7 +12,6 @@
 #include <random>
 #include <vector>
 
-#include "theory/growth.h"
 #include "visible/screen_scenes.h"
 #include <gtest/gtest.h>
 
@@ -78,7 +78,7 @@ void expect_at_most(
     const std::vector<double>& sizes,
     const std::vector<double>& counts,
     const char* what) {
-    const testing::Growth found = testing::growth(sizes, counts);
+    const Growth found = growth(sizes, counts);
     EXPECT_LE(found.exponent - found.uncertainty, exponent) << what;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/base/available_memory.h"
+#include "vera/theory/growth.h"
 #include "vera/theory/space_sweep.h"
 
 #include <algorithm>
@@ -10,7 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "theory/growth.h"
 #include "theory/rectangles.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -121,7 +121,7 @@ TEST(SpaceSweep, TellsAllThatARayMeetsUpToItsEndAndNoMore) {
 
 /// How the steps of m rays among m rectangles grow beyond what the paper says of them:
 /// (m + k) log^2 m + n log^2 m + I.
-testing::Growth growth_beyond_bound(
+Growth growth_beyond_bound(
     SlopedRays (*rays)(std::size_t, std::int32_t, std::int32_t, Random&),
     std::uint64_t& swaps,
     Random& random) {
@@ -143,7 +143,7 @@ testing::Growth growth_beyond_bound(
             / ((2 * m + crossings) * squared_logarithm + static_cast<double>(counts.reports)));
         swaps += counts.x_swaps + counts.y_swaps;
     }
-    return testing::growth(sizes, ratios);
+    return growth(sizes, ratios);
 }
 
 TEST(SpaceSweep, TakesStepsThatGrowNoFasterThanThePaperSays) {
@@ -151,7 +151,7 @@ TEST(SpaceSweep, TakesStepsThatGrowNoFasterThanThePaperSays) {
     for (const auto rays :
          {testing::sloped_rays_within, testing::nearly_parallel_rays, testing::pencil_of_rays}) {
         std::uint64_t swaps = 0;
-        const testing::Growth found = growth_beyond_bound(rays, swaps, random);
+        const Growth found = growth_beyond_bound(rays, swaps, random);
         EXPECT_LT(found.exponent - found.uncertainty, 0) << "beyond the bound";
         EXPECT_LT(found.uncertainty, 0.4) << "tells nothing";
         EXPECT_EQ(swaps == 0, rays == testing::pencil_of_rays) << "those of one point never cross";

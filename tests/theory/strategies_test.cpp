@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "vera/theory/growth.h"
 #include "vera/theory/strategies.h"
 #include "vera/visible/brute_force.h"
 
@@ -9,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "theory/growth.h"
 #include "theory/terrains.h"
 #include "visible/screen_scenes.h"
 #include <gtest/gtest.h>
@@ -84,9 +84,9 @@ TEST(Strategies, LightReachesWhatNothingLiesBefore) {
 }
 
 struct Growths {
-    testing::Growth filled;
-    testing::Growth of_sweep;
-    testing::Growth of_rays; ///< nodes and tests a ray
+    Growth filled;
+    Growth of_sweep;
+    Growth of_rays; ///< nodes and tests a ray
 };
 
 Growths growths(const std::function<ScreenScene(std::size_t)>& family) {
@@ -108,10 +108,7 @@ Growths growths(const std::function<ScreenScene(std::size_t)>& family) {
         asked.push_back(
             static_cast<double>(rays.cells + rays.tests) / static_cast<double>(rays.rays));
     }
-    return {
-        testing::growth(triangles, filled),
-        testing::growth(triangles, swept),
-        testing::growth(triangles, asked)};
+    return {growth(triangles, filled), growth(triangles, swept), growth(triangles, asked)};
 }
 
 TEST(Strategies, StepsGrowAsTheTableHasThem) {

@@ -2,6 +2,7 @@
 #include "vera/base/diagnostic.h"
 #include "vera/base/random.h"
 #include "vera/theory/ground_order.h"
+#include "vera/theory/growth.h"
 #include "vera/theory/terrain_view.h"
 #include "vera/visible/brute_force.h"
 #include "vera/visible/plane_sweep.h"
@@ -19,7 +20,6 @@
 #include <string>
 #include <vector>
 
-#include "theory/growth.h"
 #include "theory/terrains.h"
 #include "visible/maximal_pieces.h"
 #include "visible/screen_scenes.h"
@@ -322,14 +322,14 @@ void expect_to_grow_with_what_is_seen(const std::function<ScreenScene(std::int32
         of_sweep.push_back(steps.of_sweep);
         parts.push_back(steps.of_terrain / ((steps.triangles + steps.corners) * log_n * log_n));
     }
-    const auto of_k = testing::growth(triangles, crossings);
+    const auto of_k = growth(triangles, crossings);
     EXPECT_GT(of_k.exponent - of_k.uncertainty, 1.35);
-    const auto of_swept = testing::growth(triangles, of_sweep);
+    const auto of_swept = growth(triangles, of_sweep);
     EXPECT_GT(of_swept.exponent - of_swept.uncertainty, 1.3);
-    const auto within = testing::growth(triangles, parts);
+    const auto within = growth(triangles, parts);
     EXPECT_LT(within.exponent - within.uncertainty, 0);
     // n log^2 n looks like this power between these sizes.
-    const auto of_steps = testing::growth(triangles, of_terrain);
+    const auto of_steps = growth(triangles, of_terrain);
     EXPECT_LT(of_steps.exponent, 1.25);
 }
 

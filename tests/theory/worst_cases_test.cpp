@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rectangles that are worst for hulls and for the division of space, and not for the structures of
 // the paper.
+#include "vera/theory/growth.h"
 #include "vera/theory/nested_trees.h"
 #include "vera/theory/single_tree.h"
 
@@ -10,7 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "theory/growth.h"
 #include "theory/index_visits.h"
 #include "theory/rectangles.h"
 #include <gtest/gtest.h>
@@ -19,7 +19,6 @@ namespace vera {
 namespace {
 
 using Random = std::mt19937_64;
-using testing::Growth;
 using testing::Rectangles;
 
 std::vector<testing::PlacedRectangle> placed(const Rectangles& rectangles) {
@@ -88,7 +87,7 @@ Growths growths(const Family& family) {
     }
     Growths found;
     for (const auto& [name, of] : counts) {
-        found[name] = testing::growth(sizes, of);
+        found[name] = growth(sizes, of);
         ::testing::Test::RecordProperty(
             name,
             std::to_string(of.back() / 30) + " visits, exponent "

@@ -186,7 +186,7 @@ TEST(DrawScene, EveryStageEndsThatIsTooLongToWaitFor) {
         [&] { visible_map(screen, pieces, {}, &raised); },
         [&] { covered_areas(map, {}, {}, &raised); },
         [&] { borders_of(sample, &raised); },
-        [&] { covering_whole(regions, {}, &raised); },
+        [&] { widths_of_regions(regions, {}, &raised); },
         [&] { underlays(regions, fills, {}, &raised); },
         [&] { hidden_parts(screen, edges, drawn, pieces, {}, {}, &raised); },
         [&] { MapRaster(map, 100, 100, &raised); },
@@ -210,7 +210,7 @@ TEST(DrawScene, LongLoopsOfTheMapAndOfAreasLookAgainAndAgain) {
     const Stage stages[] = {
         [&](const auto&... told) { visible_map(screen, pieces, told...); },
         [&](const auto&... told) { covered_areas(map, {}, told...); },
-        [&](const auto&... told) { covering_whole(regions, told...); },
+        [&](const auto&... told) { widths_of_regions(regions, told...); },
         [&](const auto&... told) { underlays(regions, fills, told...); },
         [&](const auto&... told) { hidden_parts(screen, edges, drawn, pieces, {}, told...); },
         [&](const Progress& progress, const CancelFlag* cancel) {

@@ -65,6 +65,29 @@ TEST(DrawnSeams, MixNoOtherColorIntoWhatLiesBeyondAThinNeighbour) {
     }
 }
 
+TEST(DrawnSeams, OfAHairDoNotComeOutOnItsOtherSide) {
+    // A hair of a third of a pixel along the border of what is painted later and has many corners:
+    // half of a line along that border would stand before the background.
+    Scene scene;
+    const double width = 0.3 / per_unit;
+    add_wall(scene, -width, 0, 0.1);
+    std::vector<Vec3> corners = {{-2, 0, 0}, {2, 0, 0}};
+    for (int i = 0; i < 20; ++i)
+        corners.push_back({2 - 0.2 * i, 1 + 0.1 * (i % 2), 0});
+    add_polygon(scene.geometry, corners);
+    Material light;
+    light.sdi = {0.9, 0.9, 0.9};
+    scene.geometry.items.back().material = static_cast<MaterialId>(scene.materials.size());
+    scene.materials.push_back(light);
+    number_primitives(scene);
+    const Drawing drawing = draw_scene(scene, camera_from_the_front(), {}, {}).drawing;
+    ASSERT_EQ(drawing.fills.size(), 3U);
+    ASSERT_EQ(drawing.fills[0].id, "underlay");
+    EXPECT_TRUE(drawing.fills[1].seams.empty());
+    EXPECT_TRUE(goes_below(drawing, 1, 0.6));
+    EXPECT_FALSE(goes_below(drawing, 1, -0.4));
+}
+
 /// A ring of quarter circles about the axis.
 RotationalShape ring(Vec3 axis, double radius, double r) {
     RotationalShape shape;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/solids/shells.h"
 
+#include "vera/base/disjoint_sets.h"
 #include "vera/exact/orientation.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <span>
 #include <tuple>
 
@@ -51,30 +51,6 @@ void for_each_edge(const std::vector<Side>& sides, const Visitor& visit) {
         first = last;
     }
 }
-
-/// Sets of faces that hang together, each named by its first face.
-class FaceSets {
-public:
-    explicit FaceSets(std::size_t count)
-        : parents_(count) {
-        std::iota(parents_.begin(), parents_.end(), std::uint32_t{0});
-    }
-
-    std::uint32_t first_of(std::uint32_t face) {
-        while (parents_[face] != face)
-            face = parents_[face] = parents_[parents_[face]];
-        return face;
-    }
-
-    void join(std::uint32_t a, std::uint32_t b) {
-        const std::uint32_t first = first_of(a);
-        const std::uint32_t second = first_of(b);
-        parents_[std::max(first, second)] = std::min(first, second);
-    }
-
-private:
-    std::vector<std::uint32_t> parents_;
-};
 
 /// Which faces are turned against the first of their shell, found from neighbour to neighbour.
 class Turns {
@@ -199,7 +175,7 @@ void find_convex_sides(const SolidFaces& faces, std::vector<Shell>& shells) {
 
 std::vector<Shell> shells(const SolidFaces& faces) {
     const std::vector<Side> sides = sorted_sides(faces);
-    FaceSets sets(faces.faces.size());
+    DisjointSets sets(faces.faces.size());
     for_each_edge(sides, [&](std::span<const Side> edge) {
         for (const Side& side : edge)
             sets.join(edge.front().face, side.face);

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/theory/conjugation_tree.h"
 
-#include "vera/base/available_memory.h"
 #include "vera/base/long_loop.h"
 #include "vera/base/progress_part.h"
 #include "vera/theory/ham_sandwich.h"
 
 #include <algorithm>
-#include <numeric>
-#include <string>
 #include <utility>
 
 namespace vera {
@@ -20,21 +17,14 @@ using Numbers = std::vector<std::uint32_t>;
 /// What dividing takes of the time, beside the hulls.
 constexpr double dividing_part = 0.8;
 
-Numbers all_numbers(std::size_t count) {
-    Numbers numbers(count);
-    std::iota(numbers.begin(), numbers.end(), std::uint32_t{0});
-    return numbers;
-}
-
 /// What is asked for where memory is not known to suffice.
 std::span<const PlanePoint> required(std::span<const PlanePoint> points, std::size_t leaf_size) {
-    require_plane_points(points);
-    require_memory(
+    require_tree(
+        "a conjugation tree",
+        points,
+        leaf_size,
         ConjugationTree::bytes_forecast(points.size(), leaf_size)
-            + static_cast<double>(points.size() * ConjugationTree::building_bytes_per_point),
-        "a conjugation tree of " + std::to_string(points.size()) + " points",
-        "fewer points, and leaves of more than " + std::to_string(leaf_size)
-            + " points, take less");
+            + static_cast<double>(points.size() * ConjugationTree::building_bytes_per_point));
     return points;
 }
 

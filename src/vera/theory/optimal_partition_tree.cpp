@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/theory/optimal_partition_tree.h"
 
-#include "vera/base/available_memory.h"
 #include "vera/base/long_loop.h"
 #include "vera/base/progress_part.h"
 #include "vera/base/random.h"
@@ -12,7 +11,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <numeric>
-#include <string>
 #include <utility>
 
 namespace vera {
@@ -27,21 +25,14 @@ constexpr std::size_t parts_per_cell = 16;
 /// What dividing takes of the time, beside the hulls.
 constexpr double dividing_part = 0.9;
 
-Numbers all_numbers(std::size_t count) {
-    Numbers numbers(count);
-    std::iota(numbers.begin(), numbers.end(), std::uint32_t{0});
-    return numbers;
-}
-
 /// What is asked for where memory is not known to suffice.
 std::span<const PlanePoint> required(std::span<const PlanePoint> points, std::size_t leaf_size) {
-    require_plane_points(points);
-    require_memory(
+    require_tree(
+        "an optimal partition tree",
+        points,
+        leaf_size,
         OptimalPartitionTree::bytes_forecast(points.size(), leaf_size)
-            + OptimalPartitionTree::building_bytes(points.size(), leaf_size),
-        "an optimal partition tree of " + std::to_string(points.size()) + " points",
-        "fewer points, and leaves of more than " + std::to_string(leaf_size)
-            + " points, take less");
+            + OptimalPartitionTree::building_bytes(points.size(), leaf_size));
     return points;
 }
 

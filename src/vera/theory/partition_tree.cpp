@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/theory/partition_tree.h"
 
+#include "vera/base/available_memory.h"
 #include "vera/base/check.h"
 #include "vera/base/long_loop.h"
 #include "vera/theory/plane_hull.h"
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
+#include <string>
 #include <utility>
 
 namespace vera {
@@ -29,6 +32,25 @@ void append(const PlaneHull& hull, PartitionNode& node, std::vector<std::uint32_
 }
 
 } // namespace
+
+std::vector<std::uint32_t> all_numbers(std::size_t count) {
+    std::vector<std::uint32_t> numbers(count);
+    std::iota(numbers.begin(), numbers.end(), std::uint32_t{0});
+    return numbers;
+}
+
+void require_tree(
+    const std::string& kind,
+    std::span<const PlanePoint> points,
+    std::size_t leaf_size,
+    double bytes) {
+    require_plane_points(points);
+    require_memory(
+        bytes,
+        kind + " of " + std::to_string(points.size()) + " points",
+        "fewer points, and leaves of more than " + std::to_string(leaf_size)
+            + " points, take less");
+}
 
 StepCounts& StepCounts::operator+=(const StepCounts& more) {
     nodes += more.nodes;

@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace vera {
@@ -48,6 +49,17 @@ struct PartitionNode {
 
     bool is_leaf() const { return children == 0; }
 };
+
+/// 0, 1, 2 ... as many as that.
+std::vector<std::uint32_t> all_numbers(std::size_t count);
+
+/// Throws std::invalid_argument where a point cannot be one of a tree (require_plane_points()), and
+/// std::runtime_error where such a tree of them takes more memory, in bytes, than there is.
+void require_tree(
+    const std::string& kind,
+    std::span<const PlanePoint> points,
+    std::size_t leaf_size,
+    double bytes);
 
 /// How points are divided: the root first, each node before its children, and hulls not yet known.
 struct TreeShape {

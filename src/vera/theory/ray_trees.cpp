@@ -11,7 +11,6 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <numeric>
 #include <string>
 #include <utility>
 
@@ -23,12 +22,6 @@ using Numbers = std::vector<std::uint32_t>;
 
 /// What the outer tree takes of the time, beside those of its nodes.
 constexpr double outer_part = 0.1;
-
-Numbers all_numbers(std::size_t count) {
-    Numbers numbers(count);
-    std::iota(numbers.begin(), numbers.end(), std::uint32_t{0});
-    return numbers;
-}
 
 } // namespace
 

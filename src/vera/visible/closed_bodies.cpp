@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/closed_bodies.h"
 
+#include "vera/base/disjoint_sets.h"
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <numeric>
 #include <utility>
 
 namespace vera {
@@ -34,32 +35,12 @@ std::vector<Side> sides_of(const Facets& facets) {
     return sides;
 }
 
-/// Facets that are joined one by one.
-class Joined {
-public:
-    explicit Joined(std::size_t count)
-        : parents_(count) {
-        std::iota(parents_.begin(), parents_.end(), 0U);
-    }
-
-    std::uint32_t root(std::uint32_t i) {
-        while (parents_[i] != i)
-            i = parents_[i] = parents_[parents_[i]];
-        return i;
-    }
-
-    void join(std::uint32_t a, std::uint32_t b) { parents_[root(a)] = root(b); }
-
-private:
-    std::vector<std::uint32_t> parents_;
-};
-
 } // namespace
 
 ClosedBodies closed_bodies(const Facets& facets) {
     const std::size_t count = facets.triangles.size();
     const std::vector<Side> sides = sides_of(facets);
-    Joined joined(count);
+    DisjointSets joined(count);
     std::vector<std::uint8_t> is_open(count);
     for (auto first = sides.begin(); first != sides.end();) {
         const auto last = std::find_if(
@@ -74,13 +55,13 @@ ClosedBodies closed_bodies(const Facets& facets) {
     }
     for (std::uint32_t i = 0; i < count; ++i)
         if (is_open[i] != 0)
-            is_open[joined.root(i)] = 1;
+            is_open[joined.first_of(i)] = 1;
 
     ClosedBodies bodies;
     bodies.of_facet.assign(count, no_body);
     std::vector<std::uint32_t> numbers(count, no_body); // of roots
     for (std::uint32_t i = 0; i < count; ++i) {
-        const std::uint32_t root = joined.root(i);
+        const std::uint32_t root = joined.first_of(i);
         if (is_open[root] != 0)
             continue;
         if (numbers[root] == no_body) {

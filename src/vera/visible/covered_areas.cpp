@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/covered_areas.h"
 
+#include "vera/base/disjoint_sets.h"
 #include "vera/base/long_loop.h"
 #include "vera/base/progress_part.h"
 
 #include <algorithm>
 #include <cstddef>
-#include <numeric>
 
 namespace vera {
 
@@ -43,30 +43,6 @@ void for_each_side(
     }
 }
 
-/// Sources that have a border in common, one of which stands for all.
-class JoinedSources {
-public:
-    explicit JoinedSources(std::size_t count)
-        : parents_(count) {
-        std::iota(parents_.begin(), parents_.end(), 0U);
-    }
-
-    std::uint32_t representative(std::uint32_t source) {
-        while (parents_[source] != source)
-            source = parents_[source] = parents_[parents_[source]];
-        return source;
-    }
-
-    void join(std::uint32_t a, std::uint32_t b) {
-        const std::uint32_t first = representative(a);
-        const std::uint32_t second = representative(b);
-        parents_[std::max(first, second)] = std::min(first, second);
-    }
-
-private:
-    std::vector<std::uint32_t> parents_;
-};
-
 /// The way that begins with the side and goes on, in its area, until nothing is left to go on with:
 /// at the side's beginning, since as many sides end at a vertex as begin there.
 std::vector<std::uint32_t> way_from(std::vector<Side>& sides, Side& first) {
@@ -98,7 +74,7 @@ CoveredAreas covered_areas(
     if (map.rings.empty())
         return areas;
     const std::size_t source_count = std::size_t{map.rings.back().source} + 1;
-    JoinedSources joined(source_count);
+    DisjointSets joined(source_count);
     for_each_side(
         map,
         stages.next(1),
@@ -111,7 +87,7 @@ CoveredAreas covered_areas(
     areas.of_source.assign(source_count, none);
     for (const VisibleMap::Ring& ring : map.rings) {
         // The smallest of an area stands for it, and so comes first.
-        std::uint32_t& area = areas.of_source[joined.representative(ring.source)];
+        std::uint32_t& area = areas.of_source[joined.first_of(ring.source)];
         if (area == none) {
             area = static_cast<std::uint32_t>(areas.outlines.size());
             areas.outlines.emplace_back();

@@ -121,7 +121,7 @@ void add_flat(
     Drawing& drawing) {
     StageProgress stages(progress, 10);
     OutlineNames names(sources.scene);
-    const std::vector<bool> is_covering_whole = covering_whole(regions, stages.next(1), cancel);
+    const std::vector<float> widths = widths_of_regions(regions, stages.next(1), cancel);
     const std::vector<DrawingColor> colors = colors_of(sources, regions, stages.next(2), cancel);
     std::vector<FilledOutline> fills(regions.count());
     for (std::size_t i = 0; i < regions.count(); ++i) {
@@ -130,7 +130,7 @@ void add_flat(
     }
     long_parallel_loop(regions.count(), stages.next(3), cancel, 256, [&](std::size_t i) {
         PaintedRegion region = {std::move(fills[i]), regions.borders(i), {}};
-        cover_seams(regions, is_covering_whole, colors, i, region);
+        cover_seams(regions, widths, colors, i, region);
         add_rings(region, regions.curves().all());
         fills[i] = std::move(region.outline);
     });

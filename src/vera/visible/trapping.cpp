@@ -61,11 +61,9 @@ bool are_alike(DrawingColor a, DrawingColor b) {
 
 } // namespace
 
-std::vector<bool>
-covering_whole(const RegionOutlines& regions, const Progress& progress, const CancelFlag* cancel) {
-    constexpr std::size_t small = 16;
-    constexpr double narrow = 4; // pixels, twice the strip's width
-    std::vector<bool> result(regions.count());
+std::vector<float> widths_of_regions(
+    const RegionOutlines& regions, const Progress& progress, const CancelFlag* cancel) {
+    std::vector<float> widths(regions.count());
     const LongLoop loop(regions.count(), progress, cancel);
     for (std::size_t number = 0; number < regions.count(); ++number) {
         loop.turn(number);
@@ -80,25 +78,29 @@ covering_whole(const RegionOutlines& regions, const Progress& progress, const Ca
                 doubled_area += (a.x - ring[0].x) * y - (a.y - ring[0].y) * x;
                 length += std::sqrt(x * x + y * y);
             }
-        result[number] =
-            regions.corner_count(number) <= small || doubled_area < narrow / 2 * length;
+        widths[number] = length > 0 ? static_cast<float>(doubled_area / length) : 0;
     }
-    return result;
+    return widths;
 }
 
 void cover_seams(
     const RegionOutlines& regions,
-    const std::vector<bool>& is_covering_whole,
+    std::span<const float> widths,
     std::span<const DrawingColor> colors,
     std::size_t number,
     PaintedRegion& region) {
+    constexpr std::size_t small = 16;
+    constexpr float narrow = 2;        // pixels: where strips of one come near the other side
+    constexpr float narrow_itself = 1; // where half of a seam's line does
     std::vector<std::uint32_t> below;
     const auto cover = [&](std::span<const BorderPoint> border, std::uint32_t across) {
-        if (!is_covering_whole[across]) {
-            region.outline.seams.emplace_back(border.begin(), border.end());
-        } else if (
-            !are_alike(colors[number], colors[across])
-            && regions.corner_count(across) <= most_corners) {
+        const bool can_have_strips = regions.corner_count(across) <= most_corners;
+        if (regions.corner_count(across) > small && widths[across] >= narrow) {
+            if (widths[number] < narrow_itself && can_have_strips)
+                go_on_closely(regions, border, across, region);
+            else
+                region.outline.seams.emplace_back(border.begin(), border.end());
+        } else if (!are_alike(colors[number], colors[across]) && can_have_strips) {
             go_on_closely(regions, border, across, region);
         } else if (std::find(below.begin(), below.end(), across) == below.end()) {
             below.push_back(across);

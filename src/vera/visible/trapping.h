@@ -14,20 +14,22 @@
 
 namespace vera {
 
-/// Of each region, whether others go on below the whole of it: where it is small, or so narrow that
-/// a strip below its border would come out beyond it. Throws Cancelled.
-std::vector<bool> covering_whole(
+/// How wide each region is, in pixels: what it covers by half the length of its border. Throws
+/// Cancelled.
+std::vector<float> widths_of_regions(
     const RegionOutlines& regions,
     const Progress& progress = {},
     const CancelFlag* cancel = nullptr);
 
 /// Lets the region of that number, painted, which has its rings, go on below those beside it that
-/// are painted later: below all of those that are covering whole, which moves no silhouette, or,
-/// where that would mix another colour into what lies beyond them, close to the common border;
-/// below the others as a seam. The colours are those of all regions.
+/// are painted later: below the whole of those that are small, or so narrow that a strip below
+/// their border would come out beyond them, which moves no silhouette, or, where that would mix
+/// another colour into what lies beyond them, close to the common border; below the others as a
+/// seam, but for a region so narrow that the line would come out on its own other side. The widths
+/// and colours are those of all regions.
 void cover_seams(
     const RegionOutlines& regions,
-    const std::vector<bool>& is_covering_whole,
+    std::span<const float> widths,
     std::span<const DrawingColor> colors,
     std::size_t number,
     PaintedRegion& region);
