@@ -176,6 +176,28 @@ TEST(ControlFile, BoundsItsExtensions) {
         "  it is the difference of neighbouring pixels, in any colour, that refines a pixel\n");
 }
 
+TEST(ControlFile, WarnsOfWhatDoesNothingAndOfLessThanNoLight) {
+    EXPECT_EQ(
+        read_control("SAMPLES 8 TOLERANCE 0.2").said,
+        "test.ctl:1:1: warning: SAMPLES does nothing without ANTI-ALIAS\n"
+        "    SAMPLES 8 TOLERANCE 0.2\n"
+        "    ^~~~~~~\n"
+        "  give ANTI-ALIAS as well, or --antialias on: edges are smoothed then\n"
+        "test.ctl:1:11: warning: TOLERANCE does nothing without ANTI-ALIAS\n"
+        "    SAMPLES 8 TOLERANCE 0.2\n"
+        "              ^~~~~~~~~\n"
+        "  give ANTI-ALIAS as well, or --antialias on: edges are smoothed then\n");
+    EXPECT_EQ(read_control("TOLERANCE 0.2 ANTI-ALIAS SAMPLES 8").said, "");
+    const Reading reading = read_control("AMBIENT 0 -1 0.5");
+    EXPECT_EQ(reading.settings.ambient, (Color{0, -1, 0.5}));
+    EXPECT_EQ(
+        reading.said,
+        "test.ctl:1:9: warning: AMBIENT is 0 -1 0.5, in part below 0\n"
+        "    AMBIENT 0 -1 0.5\n"
+        "            ^\n"
+        "  less than no light darkens what other light makes bright\n");
+}
+
 TEST(ControlFile, ReadsTheShapeOfTheHorizon) {
     const auto read = read_control("SKY 0 0 1 PROFILE 4  -90 1  10 2.5  100 -3  190 4  SHADOWS");
     EXPECT_EQ(read.said, "");

@@ -77,6 +77,7 @@ public:
             skip();
         }
         set_firmament();
+        warn_of_idle_words();
         const std::vector<Diagnostic> found = complaints_.finish();
         warnings.insert(warnings.end(), found.begin(), found.end());
         return settings_;
@@ -127,6 +128,7 @@ private:
     void read_samples();
     void read_tolerance();
     void read_lights();
+    void warn_of_idle_words();
     void set_firmament();
 
     void take_color(const char* what, std::optional<Color>& color) {
@@ -291,6 +293,20 @@ void ControlReader::read_lights() {
         factors.push_back(*factor);
     } while (!words_.peek().empty() && !keyword_named(words_.peek()));
     settings_.light_factors = std::move(factors);
+}
+
+void ControlReader::warn_of_idle_words() {
+    if (settings_.antialiasing.on || complaints_.error_count() > 0)
+        return;
+    for (const Keyword keyword : {Keyword::samples, Keyword::tolerance})
+        if (const auto& place = places_[static_cast<std::size_t>(keyword)])
+            complaints_.warn(
+                "settings of anti-aliasing without ANTI-ALIAS",
+                *place,
+                fmt::format(
+                    "{} does nothing without ANTI-ALIAS",
+                    control_words[static_cast<std::size_t>(keyword)]),
+                "give ANTI-ALIAS as well, or --antialias on: edges are smoothed then");
 }
 
 void ControlReader::set_firmament() {

@@ -223,9 +223,16 @@ std::optional<PointLight> read_light(WordReader& words) {
     const auto position = words.take_point("the light's position");
     if (!position)
         return std::nullopt;
+    const WordPlace place = words.place();
     const auto intensity = words.take_number("the light's intensity");
     if (!intensity)
         return std::nullopt;
+    if (*intensity < 0)
+        words.complaints().warn(
+            "lights below 0",
+            place,
+            fmt::format("the light's intensity is {}, below 0", *intensity),
+            "such a light darkens what others make bright");
     const auto color = words.take_color("the light");
     if (!color)
         return std::nullopt;

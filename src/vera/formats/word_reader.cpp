@@ -244,11 +244,18 @@ std::optional<Vec3> WordReader::take_point(const char* what) {
 }
 
 std::optional<Color> WordReader::take_color(const char* what) {
+    const WordPlace place = this->place();
     Color color;
     if (!take_number(color.r, "the red part of ", what)
         || !take_number(color.g, "the green part of ", what)
         || !take_number(color.b, "the blue part of ", what))
         return std::nullopt;
+    if (color.r < 0 || color.g < 0 || color.b < 0)
+        complaints_.warn(
+            "colours below 0",
+            place,
+            fmt::format("{} is {} {} {}, in part below 0", what, color.r, color.g, color.b),
+            "less than no light darkens what other light makes bright");
     return color;
 }
 
