@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 
 #include "bench_command.h"
 #include "curve_report.h"
@@ -145,9 +146,13 @@ counted(const std::vector<Chosen>& wanted, std::uint64_t seed, const Console& co
     StageProgress stages(display.callback(), total);
     std::vector<Curve> curves;
     curves.reserve(wanted.size());
-    for (const Chosen& each : wanted)
-        curves.push_back(counted_curve(
-            *each.experiment, each.sizes, seed, stages.next(weight(each)), &console.cancel));
+    try {
+        for (const Chosen& each : wanted)
+            curves.push_back(counted_curve(
+                *each.experiment, each.sizes, seed, stages.next(weight(each)), &console.cancel));
+    } catch (const std::invalid_argument& error) {
+        throw CommandLineError(error.what());
+    }
     return curves;
 }
 

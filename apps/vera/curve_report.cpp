@@ -24,11 +24,6 @@ std::vector<double> of_points(const Curve& curve, double CountedSize::*member) {
     return values;
 }
 
-std::vector<double> local_exponents_of(const Curve& curve) {
-    return local_exponents(
-        of_points(curve, &CountedSize::size), of_points(curve, &CountedSize::count));
-}
-
 const char* verdict_word(Verdict verdict) {
     return verdict == Verdict::below ? "below" : verdict == Verdict::along ? "along" : "above";
 }
@@ -165,7 +160,7 @@ Json as_json(const Curve& curve) {
         {"counts", of_points(curve, &CountedSize::count)},
         {"bounds", of_points(curve, &CountedSize::bound)},
         {"variables", variables_of(curve)},
-        {"local_exponents", local_exponents_of(curve)},
+        {"local_exponents", curve.local_exponents()},
         {"first_fitted", curve.fitted().front().size},
         {"exponent", curve.growth.exponent},
         {"half_interval", curve.growth.half_interval},
@@ -249,7 +244,7 @@ std::string curve_csv(std::span<const Curve> curves) {
         text += "," + name;
     text += "\n";
     for (const Curve& curve : curves) {
-        const std::vector<double> locals = local_exponents_of(curve);
+        const std::vector<double> locals = curve.local_exponents();
         for (std::size_t i = 0; i < curve.points.size(); ++i)
             text += fmt::format(
                 "{},{},{},{:.6g},{},{}{}\n",

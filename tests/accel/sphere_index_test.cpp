@@ -304,6 +304,25 @@ TEST(SphereIndex, LeavesOutWhatIsNoSphere) {
     EXPECT_FALSE(none.meets_any({.origin = {-1, 0.25F, 0}, .direction = {1, 0, 0}}));
 }
 
+TEST(SphereIndex, IsNotSlowedDownByWhatItLeavesOut) {
+    SampleSpheres spheres = random_spheres(1, 500);
+    const std::vector<IndexRay> rays = random_mesh_rays(2, places_about(spheres), 200);
+    const auto counted = [&] {
+        SphereQueryCounts counts;
+        std::vector<SphereHit> hits(rays.size());
+        SphereIndex(spheres).nearest_hits(rays, hits, &counts);
+        return counts;
+    };
+    const SphereQueryCounts before = counted();
+    constexpr float huge = std::numeric_limits<float>::max();
+    spheres.push_back({huge, huge, huge, -1});
+    spheres.push_back({huge, std::nanf(""), 0, 1});
+    const SphereQueryCounts after = counted();
+    EXPECT_EQ(after.nodes, before.nodes);
+    EXPECT_EQ(after.spheres, before.spheres);
+    EXPECT_GT(before.spheres, 0U);
+}
+
 TEST(SphereIndex, RefusesMoreSpheresThanItCanNumberBeforeItReadsThem) {
     const std::array<float, 4> only = {};
     try {

@@ -118,6 +118,39 @@ TEST(Curve, HasSizesThatGrowByTwoOrItsRoot) {
     EXPECT_THAT(sizes_up_to(experiment, 64), ElementsAre(16, 32, 64));
 }
 
+TEST(Curve, IsRefusedWhereInputsComeOutTheSameSize) {
+    Experiment experiment = power_experiment(1, 1);
+    experiment.count = [](std::size_t size, std::uint64_t, const CancelFlag*) {
+        const auto even = static_cast<double>(size / 2 * 2);
+        return CountedSize{even, even, even};
+    };
+    const std::vector<std::size_t> sizes = {16, 32, 33, 64};
+    try {
+        counted_curve(experiment, sizes);
+        FAIL() << "not refused";
+    } catch (const std::invalid_argument& error) {
+        EXPECT_STREQ(
+            error.what(),
+            "power/plain makes inputs of one size of both 32 and 33 things: name sizes that lie "
+            "farther apart");
+    }
+    const std::vector<double> equal = {1, 2, 2, 4};
+    EXPECT_THROW(local_exponents(equal, equal), std::invalid_argument);
+}
+
+TEST(Curve, AsksForSizesThatAreEnough) {
+    for (const int a_doubling : {1, 2}) {
+        Experiment experiment = power_experiment(1, 1);
+        experiment.sizes_a_doubling = a_doubling;
+        const std::size_t asked = a_doubling == 1 ? 128 : 45;
+        const auto too_few = sizes_up_to(experiment, asked - 1);
+        EXPECT_THAT(
+            problem_with_sizes(experiment, too_few),
+            HasSubstr(" " + std::to_string(asked) + " at"));
+        EXPECT_EQ(problem_with_sizes(experiment, sizes_up_to(experiment, asked)), "");
+    }
+}
+
 TEST(Curve, IsRefusedAtSizesThatTellNothing) {
     const Experiment experiment = power_experiment(1, 1);
     const auto problem = [&](const std::vector<std::size_t>& sizes) {
@@ -127,7 +160,7 @@ TEST(Curve, IsRefusedAtSizesThatTellNothing) {
     EXPECT_EQ(
         problem({16, 32, 64}),
         "power/plain is counted at 3 sizes, and an exponent takes 4 or more: name more sizes, or "
-        "let them go on to 48 at least");
+        "let them go on to 45 at least");
     EXPECT_EQ(
         problem({16, 32, 32, 64}),
         "the size 32 stands behind 32: name sizes in ascending order, each once");
@@ -193,7 +226,7 @@ TEST(Curve, IsCheckedByABootstrap) {
 TEST(Curve, TellsWhichFormulaItFollows) {
     const Curve curve = counted(power_experiment(0.8, 0.7));
     EXPECT_EQ(followed_text(curve), "c n^0.80");
-    EXPECT_THAT(followed_text(counted(power_experiment(1, 0.7))), HasSubstr("c n"));
+    EXPECT_EQ(followed_text(counted(power_experiment(1, 0.7))), "c n^1.00, or c n");
 }
 
 /// Counts that are made of n and k with those coefficients, k being n^1.5 or n^2.

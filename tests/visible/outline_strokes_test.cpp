@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -348,6 +349,70 @@ TEST(OutlineStrokes, DashWhatIsHiddenOfAnIntersection) {
         EXPECT_NEAR(seen, 512 / 6.0, 1e-2);
         EXPECT_NEAR(hidden, style == DrawingStyle::lines ? 0 : 512 / 6.0, 1e-2);
     }
+}
+
+double distance_to_segment(DrawingPoint at, DrawingPoint from, DrawingPoint to) {
+    const double x = to.x - from.x;
+    const double y = to.y - from.y;
+    const double squared = x * x + y * y;
+    const double along = squared > 0 ? ((at.x - from.x) * x + (at.y - from.y) * y) / squared : 0;
+    const double part = std::clamp(along, 0.0, 1.0);
+    return distance(at, {from.x + part * x, from.y + part * y});
+}
+
+/// From a place that none of the faces' planes comes through.
+Camera camera_from_aside() {
+    Camera camera;
+    camera.viewpoint = {1.137, 1.291, 9.713};
+    const Vec3 to = normalized(-camera.viewpoint);
+    const Vec3 across = normalized(cross(to, {0, 1, 0}));
+    const Vec3 up = cross(across, to);
+    const Vec3 middle = camera.viewpoint + to;
+    camera.lower_left = middle - 0.4 * across - 0.4 * up;
+    camera.lower_right = middle + 0.4 * across - 0.4 * up;
+    camera.upper_left = middle - 0.4 * across + 0.4 * up;
+    return camera;
+}
+
+/// Where faces pass through each other within a step of an edge, lines are made of what joins the
+/// borders of both: they too must lie on a border, and leave no corner of it out.
+TEST(OutlineStrokes, LieOnBordersOfWhatIsSeen) {
+    std::mt19937_64 random(4);
+    const auto coordinate = [&] { return static_cast<double>(random() % 5) - 2; };
+    std::size_t intersections = 0;
+    for (int round = 0; round < 120; ++round) {
+        Scene scene;
+        for (int i = 0; i < 10; ++i) {
+            std::vector<Vec3> corners(3);
+            for (Vec3& corner : corners)
+                for (std::size_t axis = 0; axis < 3; ++axis)
+                    corner[axis] = coordinate();
+            const Vec3 normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
+            if (dot(normal, normal) > 0)
+                add_polygon(scene.geometry, corners);
+        }
+        number_primitives(scene);
+        const Drawing areas = draw_scene(scene, camera_from_aside(), {}, {}).drawing;
+        for (const Stroke& stroke : lines_of(scene, camera_from_aside())) {
+            intersections += stroke.line_class == LineClass::intersection ? 1 : 0;
+            ASSERT_TRUE(stroke.arcs.empty());
+            for (std::size_t i = 0; i + (stroke.closed ? 0 : 1) < stroke.points.size(); ++i) {
+                const DrawingPoint from = stroke.points[i];
+                const DrawingPoint to = stroke.points[(i + 1) % stroke.points.size()];
+                const DrawingPoint middle = {(from.x + to.x) / 2, (from.y + to.y) / 2};
+                double nearest = 1e9;
+                for (const FilledOutline& fill : areas.fills)
+                    for (const auto& ring : fill.rings)
+                        for (std::size_t k = 0; k < ring.size(); ++k)
+                            nearest = std::min(
+                                nearest,
+                                distance_to_segment(middle, ring[k], ring[(k + 1) % ring.size()]));
+                ASSERT_LT(nearest, 0.01) << "round " << round << ": " << from.x << ' ' << from.y
+                                         << " to " << to.x << ' ' << to.y;
+            }
+        }
+    }
+    EXPECT_GT(intersections, 100U);
 }
 
 TEST(OutlineStrokes, OfRandomScenesAreFiniteInTheFrameAndWhole) {

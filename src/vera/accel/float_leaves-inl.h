@@ -79,7 +79,7 @@ HWY_INLINE hn::Vec<D> dot_in_order(const Vector<hn::Vec<D>>& a, const Vector<hn:
 
 /// How rays meet elements.
 template <typename D>
-struct Meeting {
+struct FloatMeeting {
     hn::Mask<D> may;  ///< false: surely not, or not before the limit
     hn::Mask<D> sure; ///< true: surely, and after near and before far
     hn::Vec<D> near;

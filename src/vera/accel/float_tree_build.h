@@ -19,16 +19,17 @@ namespace vera::detail {
 /// Ranges that the threads take.
 constexpr std::size_t float_tree_grain = 4096;
 
-/// The largest of the finite numbers, without its sign.
-template <std::size_t Count>
-float largest_number(std::span<const std::array<float, Count>> rows) {
+/// The largest of the finite numbers in the rows of which is_asked(row) is true, without its sign.
+template <std::size_t Count, typename IsAsked>
+float largest_number(std::span<const std::array<float, Count>> rows, const IsAsked& is_asked) {
     std::atomic<std::uint32_t> largest = 0; // of positive numbers, the bits have the same order
     parallel_ranges(rows.size(), float_tree_grain, [&](std::size_t first, std::size_t last) {
         float of_part = 0;
         for (std::size_t i = first; i < last; ++i)
-            for (const float number : rows[i])
-                if (std::isfinite(number))
-                    of_part = std::max(of_part, std::abs(number));
+            if (is_asked(rows[i]))
+                for (const float number : rows[i])
+                    if (std::isfinite(number))
+                        of_part = std::max(of_part, std::abs(number));
         const auto bits = std::bit_cast<std::uint32_t>(of_part);
         std::uint32_t before = largest.load();
         while (before < bits && !largest.compare_exchange_weak(before, bits)) {
@@ -37,26 +38,34 @@ float largest_number(std::span<const std::array<float, Count>> rows) {
     return std::bit_cast<float>(largest.load());
 }
 
-/// Every number can be had back from what it becomes.
-template <std::size_t Count>
-bool scales_exactly(std::span<const std::array<float, Count>> rows, int exponent) {
+/// Every number of those rows can be had back from what it becomes.
+template <std::size_t Count, typename IsAsked>
+bool scales_exactly(
+    std::span<const std::array<float, Count>> rows, const IsAsked& is_asked, int exponent) {
     const FloatScale scale(exponent);
     const FloatScale back(-exponent);
     std::atomic<bool> exact = true;
     parallel_ranges(rows.size(), float_tree_grain, [&](std::size_t first, std::size_t last) {
         bool all = true;
         for (std::size_t i = first; i < last; ++i)
-            for (const float number : rows[i])
-                all = all && (back(scale(number)) == number || !std::isfinite(number));
+            if (is_asked(rows[i]))
+                for (const float number : rows[i])
+                    all = all && (back(scale(number)) == number || !std::isfinite(number));
         if (!all)
             exact = false;
     });
     return exact;
 }
 
-/// Sets how the tree's numbers are scaled: sizes of up to `largest` become less than 1.
-template <std::size_t Count>
-void set_scale(FloatTree& tree, std::span<const std::array<float, Count>> rows, double largest) {
+/// Sets how the tree's numbers are scaled: so that those of the rows that are asked, times the
+/// reach, become less than 1. What is left out of the tree is not to be asked: it may be huge.
+template <std::size_t Count, typename IsAsked>
+void set_scale(
+    FloatTree& tree,
+    std::span<const std::array<float, Count>> rows,
+    const IsAsked& is_asked,
+    double reach) {
+    const double largest = reach * static_cast<double>(largest_number(rows, is_asked));
     if (largest > 0) {
         int exponent = 0;
         std::frexp(largest, &exponent);
@@ -64,7 +73,7 @@ void set_scale(FloatTree& tree, std::span<const std::array<float, Count>> rows, 
     }
     tree.scale = FloatScale(tree.exponent);
     tree.scale_back = FloatScale(-tree.exponent);
-    tree.exact = scales_exactly(rows, tree.exponent);
+    tree.exact = scales_exactly(rows, is_asked, tree.exponent);
 }
 
 /// The boxes of so many elements; those of which box_of(number) is empty are left out.

@@ -67,7 +67,7 @@ HWY_INLINE void visit_leaf(const Search<Tree>& search, const TreeChild& leaf, Be
         auto place = hn::Load(du, group.place.data() + i);
         for (std::uint32_t rest = seen.may; rest != 0; rest &= rest - 1) {
             const auto j = static_cast<std::size_t>(std::countr_zero(rest));
-            const Meeting<Rays> meeting = meeting_seen(d, rays, seen, j, limit);
+            const FloatMeeting<Rays> meeting = meeting_seen(d, rays, seen, j, limit);
             const auto sure = hn::And(meeting.sure, followed);
             const auto nearer = hn::And(sure, hn::Lt(meeting.far, near));
             const auto nearer_ints = hn::RebindMask(du, nearer);
@@ -97,7 +97,7 @@ HWY_INLINE bool take_meetings(
     const Search<Tree>& search,
     const TreeChild& leaf,
     std::size_t i,
-    const Meeting<LeafLanes>& meeting,
+    const FloatMeeting<LeafLanes>& meeting,
     SingleRay& ray) {
     const LeafLanes d;
     const std::size_t size = leaf_size(leaf);

@@ -91,7 +91,7 @@ struct Passing {
 constexpr float well_known = 16;
 
 template <typename D>
-HWY_INLINE Meeting<D>
+HWY_INLINE FloatMeeting<D>
 meeting_triangle(D d, const Passing<hn::Vec<D>>& passing, hn::Vec<D> t_min, hn::Vec<D> limit) {
     using V = hn::Vec<D>;
     const V w = hn::Sub(hn::Sub(passing.speed, passing.u), passing.v);
@@ -262,7 +262,7 @@ HWY_INLINE DirectedRays rays_at(const Search<MeshTree>&, const RayGroup& group, 
 }
 
 /// How the rays meet a triangle that was seen from their origin.
-HWY_INLINE Meeting<Rays> meeting_seen(
+HWY_INLINE FloatMeeting<Rays> meeting_seen(
     Rays d,
     const DirectedRays& rays,
     const SeenTriangles& seen,
@@ -281,7 +281,7 @@ HWY_INLINE Meeting<Rays> meeting_seen(
 }
 
 /// How a ray meets the triangles.
-HWY_INLINE Meeting<LeafLanes>
+HWY_INLINE FloatMeeting<LeafLanes>
 meeting_single(const Sides<hn::Vec<LeafLanes>>& sides, const SingleRay& ray) {
     const LeafLanes d;
     return meeting_triangle(

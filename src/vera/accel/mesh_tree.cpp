@@ -75,7 +75,8 @@ MeshTree build_mesh_tree(MeshSpans mesh, MeshIndexQuality quality, const CancelF
     check_corners(mesh);
     MeshTree tree;
     tree.mesh = mesh;
-    set_scale(tree, mesh.vertices, static_cast<double>(largest_number(mesh.vertices)));
+    set_scale(
+        tree, mesh.vertices, [](const auto&) { return true; }, 1);
     const FloatScale& scale = tree.scale;
     std::vector<BoxReference> references =
         float_references(mesh.triangles.size(), [&](std::size_t i) {

@@ -75,7 +75,7 @@ struct RaysAtSpheres {
 
 /// How rays meet spheres; the way leads from a ray's origin to the center.
 template <typename D>
-HWY_INLINE Meeting<D> meeting_sphere(
+HWY_INLINE FloatMeeting<D> meeting_sphere(
     D d,
     const RaysAtSpheres<hn::Vec<D>>& rays,
     const Vector<hn::Vec<D>>& way,
@@ -128,7 +128,7 @@ HWY_INLINE Meeting<D> meeting_sphere(
 }
 
 /// How a ray meets the spheres.
-HWY_INLINE Meeting<LeafLanes>
+HWY_INLINE FloatMeeting<LeafLanes>
 meeting_single(const Spheres<hn::Vec<LeafLanes>>& spheres, const SingleRay& ray) {
     const LeafLanes d;
     return meeting_sphere(
@@ -205,7 +205,7 @@ rays_at(const Search<SphereTree>&, const RayGroup& group, std::size_t i) {
 }
 
 /// How rays meet a sphere that was seen from their origin.
-HWY_INLINE Meeting<Rays> meeting_seen(
+HWY_INLINE FloatMeeting<Rays> meeting_seen(
     Rays d,
     const RaysAtSpheres<hn::Vec<Rays>>& rays,
     const SeenSpheres& seen,

@@ -43,7 +43,7 @@ SphereTree build_sphere_tree(SphereSpan spheres, IndexQuality quality, const Can
     SphereTree tree;
     tree.spheres = spheres;
     // A sphere reaches as far as the largest coordinate and the largest radius together.
-    set_scale(tree, spheres, 2 * static_cast<double>(largest_number(spheres)));
+    set_scale(tree, spheres, is_sphere, 2);
     std::vector<BoxReference> references = float_references(
         spheres.size(), [&](std::size_t i) { return box_of(spheres[i], tree.scale); });
     const std::size_t met = references.size();

@@ -99,9 +99,9 @@ private:
         /// Calls visit(centre), row by row, until it returns true; returns whether it did.
         template <typename Visit>
         bool any(const Visit& visit) const {
-            for (const Seen* row = corner; row != corner + side * stride; row += stride)
-                for (const Seen* one = row; one != row + side; ++one)
-                    if (visit(*one))
+            for (std::size_t row = 0; row < side; ++row)
+                for (std::size_t column = 0; column < side; ++column)
+                    if (visit(corner[row * stride + column]))
                         return true;
             return false;
         }

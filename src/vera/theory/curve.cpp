@@ -44,6 +44,12 @@ const char* verdict_text(Verdict verdict) {
     return "above the bound for certain";
 }
 
+std::vector<double> Curve::local_exponents() const {
+    return vera::local_exponents(
+        values_of(points, std::mem_fn(&CountedSize::size)),
+        values_of(points, std::mem_fn(&CountedSize::count)));
+}
+
 std::vector<std::span<const Curve>> curves_by_name(std::span<const Curve> curves) {
     std::vector<std::span<const Curve>> groups;
     std::size_t first = 0;
@@ -55,12 +61,22 @@ std::vector<std::span<const Curve>> curves_by_name(std::span<const Curve> curves
     return groups;
 }
 
+namespace {
+
+/// Of those that sizes_up_to() has.
+std::size_t fourth_size(const Experiment& experiment) {
+    return sizes_up_to(experiment, 8 * experiment.first).at(least_sizes_of_curve - 1);
+}
+
+} // namespace
+
 std::string problem_with_sizes(const Experiment& experiment, std::span<const std::size_t> sizes) {
     const std::string name = full_name(experiment);
     if (sizes.size() < least_sizes_of_curve)
         return name + " is counted at " + std::to_string(sizes.size())
-            + " sizes, and an exponent takes 4 or more: name more sizes, or let them go on to "
-            + std::to_string(3 * experiment.first) + " at least";
+            + (sizes.size() == 1 ? " size" : " sizes")
+            + ", and an exponent takes 4 or more: name more sizes, or let them go on to "
+            + std::to_string(fourth_size(experiment)) + " at least";
     if (sizes.size() > most_sizes_of_curve)
         return name + " is counted at " + std::to_string(sizes.size())
             + " sizes, and 64 are the most: leave some out";
@@ -115,10 +131,16 @@ Curve counted_curve(
         total += static_cast<double>(size);
     StageProgress stages(progress, total);
     std::vector<CountedSize> points;
-    for (const std::size_t size : sizes) {
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
         stop_if_raised(cancel);
-        stages.next(static_cast<double>(size));
-        points.push_back(experiment.count(size, random(seed, size, 0), cancel));
+        stages.next(static_cast<double>(sizes[i]));
+        points.push_back(experiment.count(sizes[i], random(seed, sizes[i], 0), cancel));
+        // Some inputs come in few sizes: lattices, for example.
+        if (i > 0 && points[i].size == points[i - 1].size)
+            throw std::invalid_argument(
+                full_name(experiment) + " makes inputs of one size of both "
+                + std::to_string(sizes[i - 1]) + " and " + std::to_string(sizes[i]) + " "
+                + experiment.unit + ": name sizes that lie farther apart");
     }
     if (progress)
         progress(1);

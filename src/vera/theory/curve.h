@@ -44,6 +44,9 @@ struct Curve {
     bool is_contradicted() const { return resampled_verdict != verdict; }
 
     std::span<const CountedSize> fitted() const { return std::span(points).subspan(first_fitted); }
+
+    /// From each size to the next: see growth.h.
+    std::vector<double> local_exponents() const;
 };
 
 /// Those of each name, which stand in a row.
@@ -58,7 +61,8 @@ constexpr std::size_t most_sizes_of_curve = 64;
 std::string problem_with_sizes(const Experiment& experiment, std::span<const std::size_t> sizes);
 
 /// Counts the experiment at each size, one after the other; the seed of each follows from the one
-/// given. Throws std::invalid_argument with problem_with_sizes(), and as the experiment does.
+/// given. Throws std::invalid_argument with problem_with_sizes(), and where inputs of two sizes
+/// come out the same size; and as the experiment does.
 Curve counted_curve(
     const Experiment& experiment,
     std::span<const std::size_t> sizes,

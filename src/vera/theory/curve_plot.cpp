@@ -84,16 +84,6 @@ WholeRange whole_range(std::span<const double> values) {
     return {first, std::max(static_cast<int>(std::ceil(*highest)), first + 1)};
 }
 
-std::vector<double> local_exponents_of(const Curve& curve) {
-    std::vector<double> sizes;
-    std::vector<double> counts;
-    for (const CountedSize& point : curve.points) {
-        sizes.push_back(point.size);
-        counts.push_back(point.count);
-    }
-    return local_exponents(sizes, counts);
-}
-
 /// What is said below the legend: what a star means, where there is one; and what each family has
 /// of the terms of a bound of several.
 std::vector<std::string> notes_of(std::span<const Curve> curves) {
@@ -145,7 +135,7 @@ public:
         counts_ = upward.found();
         std::vector<double> locals;
         for (const Curve& curve : curves) {
-            const std::vector<double> some = local_exponents_of(curve);
+            const std::vector<double> some = curve.local_exponents();
             locals.insert(locals.end(), some.begin(), some.end());
         }
         exponents_ = whole_range(locals);
@@ -271,7 +261,7 @@ private:
 
     /// Each in the middle of its two sizes. A drift tells that the counts are no power.
     void add_local_exponents(const Curve& curve, const char* color) {
-        const std::vector<double> exponents = local_exponents_of(curve);
+        const std::vector<double> exponents = curve.local_exponents();
         std::vector<DrawingPoint> points;
         for (std::size_t i = 0; i < exponents.size(); ++i)
             points.push_back(

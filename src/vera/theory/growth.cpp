@@ -63,6 +63,8 @@ std::size_t first_to_fit(std::size_t points) {
 std::vector<double> local_exponents(std::span<const double> sizes, std::span<const double> counts) {
     const Logarithms logs = logarithms(sizes, counts);
     std::vector<double> exponents;
+    if (std::adjacent_find(sizes.begin(), sizes.end()) != sizes.end())
+        throw std::invalid_argument("no power leads from a size to an equal one");
     for (std::size_t i = 1; i < sizes.size(); ++i)
         exponents.push_back(
             (logs.of_counts[i] - logs.of_counts[i - 1])

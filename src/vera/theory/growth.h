@@ -30,7 +30,7 @@ struct Growth {
 /// The fewest sizes that tell how sure an exponent is.
 constexpr std::size_t least_sizes_of_growth = 3;
 
-/// Of as many counts as sizes, 3 or more, all positive and no two sizes equal; otherwise throws
+/// Of as many counts as sizes, 3 or more, all positive, and sizes not all equal; otherwise throws
 /// std::invalid_argument. The same bits on every machine.
 Growth growth(std::span<const double> sizes, std::span<const double> counts);
 
@@ -39,7 +39,8 @@ Growth growth(std::span<const double> sizes, std::span<const double> counts);
 std::size_t first_to_fit(std::size_t points);
 
 /// From each size to the next: the power that would lead from the one count to the other. A drift
-/// tells that the counts are no power of the size. Throws likewise.
+/// tells that the counts are no power of the size. Throws likewise, and where a size equals the one
+/// before.
 std::vector<double> local_exponents(std::span<const double> sizes, std::span<const double> counts);
 
 } // namespace vera

@@ -25,7 +25,7 @@ LineFit line_fit(std::span<const double> xs, std::span<const double> ys);
 
 /// Student's t with so many degrees of freedom (1 or more), which 95 % are below, or 95 % are
 /// between it and its negative. Tabled to three decimals up to 30, the last one for all beyond,
-/// where it is too large by a hundredth or two.
+/// where it is too large by up to 4 hundredths of it.
 double student_one_way(std::size_t freedom);
 double student_both_ways(std::size_t freedom);
 

@@ -68,7 +68,11 @@ LineRules::LineRules(
     , screen_(screen)
     , points_(points)
     , edges_(screen_edges(screen))
-    , triangles_(vera::edge_triangles(screen, edges_)) {}
+    , triangles_(vera::edge_triangles(screen, edges_))
+    , triangle_of_face_(faces.first_facet.size(), no_triangle) {
+    for (std::uint32_t i = 0; i < screen.triangles.size(); ++i)
+        triangle_of_face_[face_of(i)] = i;
+}
 
 std::uint32_t LineRules::face_of(std::uint32_t triangle) const {
     return screen_.triangles[triangle].source;
@@ -110,12 +114,16 @@ bool LineRules::is_between_neighbours(const VisiblePiece& piece) const {
         != a.corners.end();
 }
 
-/// Whether both triangles have the place on one of their sides, equally near.
 bool LineRules::meet_there(const VisiblePiece& piece) const {
-    std::array<DepthPlane, 2> planes;
-    for (std::size_t i = 0; i < 2; ++i)
-        planes[i] = plane_of(screen_, screen_.triangles[i == 0 ? piece.left : piece.right]);
-    for (const std::uint32_t end : {piece.from, piece.to}) {
+    return meet_at({piece.from, piece.to}, piece.left, piece.right);
+}
+
+/// Whether the planes of both triangles are equally near at both ends.
+bool LineRules::meet_at(const LineEnds& ends, std::uint32_t triangle, std::uint32_t other) const {
+    const std::array<DepthPlane, 2> planes = {
+        plane_of(screen_, screen_.triangles[triangle]),
+        plane_of(screen_, screen_.triangles[other])};
+    for (const std::uint32_t end : ends) {
         const RationalPoint& point = points_[end];
         const double apart =
             std::abs(planes[0].value(point.x(), point.y()) - planes[1].value(point.x(), point.y()));
@@ -167,9 +175,10 @@ std::optional<LineClass> LineRules::class_of(const VisiblePiece& piece) const {
         : LineClass::intersection;
 }
 
-std::optional<LineClass>
-LineRules::class_of_meeting(std::uint32_t face, std::uint32_t other_face) const {
-    if (are_smooth(face, other_face))
+std::optional<LineClass> LineRules::class_of_meeting(
+    const LineEnds& ends, std::uint32_t face, std::uint32_t other_face) const {
+    if (are_on_frame(points_[ends[0]], points_[ends[1]]) || are_smooth(face, other_face)
+        || !meet_at(ends, triangle_of_face_[face], triangle_of_face_[other_face]))
         return std::nullopt;
     return LineClass::intersection;
 }

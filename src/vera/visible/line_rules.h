@@ -11,12 +11,16 @@
 #include "vera/visible/edges.h"
 #include "vera/visible/screen_scene.h"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
 
 namespace vera {
+
+/// Numbers of points.
+using LineEnds = std::array<std::uint32_t, 2>;
 
 /// Which edges are lines, and of which class.
 class LineRules {
@@ -33,8 +37,10 @@ public:
     /// or one goes on smoothly.
     std::optional<LineClass> class_of(const VisiblePiece& piece) const;
 
-    /// Of a line along which two faces meet that are seen on its sides.
-    std::optional<LineClass> class_of_meeting(std::uint32_t face, std::uint32_t other_face) const;
+    /// Of a line between two of the points, on whose sides two faces are seen, each on one; nothing
+    /// where they do not meet along it.
+    std::optional<LineClass>
+    class_of_meeting(const LineEnds& ends, std::uint32_t face, std::uint32_t other_face) const;
 
     /// Whether the piece is where a facet of a curved surface covers one that has a corner in
     /// common with it: near its silhouette some do.
@@ -53,6 +59,7 @@ private:
     Vec3 normal_towards_viewer(std::uint32_t face) const;
     bool are_smooth(std::uint32_t one_face, std::uint32_t other_face) const;
     bool meet_there(const VisiblePiece& piece) const;
+    bool meet_at(const LineEnds& ends, std::uint32_t triangle, std::uint32_t other) const;
     bool ends_there(const VisiblePiece& piece, std::uint32_t triangle, std::uint32_t other) const;
     bool goes_on_smoothly(std::uint32_t edge, std::uint32_t triangle) const;
     bool is_drawn(std::uint32_t edge) const;
@@ -66,6 +73,7 @@ private:
     std::span<const PackedPoint> points_;
     ScreenEdges edges_;
     EdgeTriangles triangles_;
+    std::vector<std::uint32_t> triangle_of_face_; ///< one of them
 };
 
 } // namespace vera

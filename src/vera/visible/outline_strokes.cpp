@@ -36,7 +36,7 @@ struct LineParts {
 
 /// A straight way that joins others round what is seen of a face.
 struct JoinedSide {
-    std::array<std::uint32_t, 2> ends = {}; ///< the smaller one first
+    LineEnds ends = {}; ///< the smaller one first
     std::uint32_t face = 0;
 
     friend auto operator<=>(const JoinedSide&, const JoinedSide&) = default;
@@ -70,16 +70,19 @@ void add_joined_parts(
         const JoinedSide& other = sides[i];
         if (one.ends != other.ends || one.face == other.face)
             continue;
-        const std::optional<LineClass> line_class = rules.class_of_meeting(one.face, other.face);
-        if (!line_class)
+        const std::optional<LineClass> line_class =
+            rules.class_of_meeting(one.ends, one.face, other.face);
+        const RationalPoint begin = sources.pieces.points[one.ends[0]];
+        const RationalPoint end = sources.pieces.points[one.ends[1]];
+        // Within one step of the grid there is nothing to see, nor a direction.
+        if (!line_class || begin.whole == end.whole)
             continue;
         LinePart& part = parts.emplace_back();
         part.ends = one.ends;
-        const RationalPoint begin = sources.pieces.points[one.ends[0]];
-        const RationalPoint end = sources.pieces.points[one.ends[1]];
         part.step = step(begin.whole, end.whole);
         part.line_class = *line_class;
         part.faces = {one.face, other.face};
+        ++i; // one line for all that are joined there
     }
 }
 
