@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Makes the pictures of docs/bounds.md and docs/rectangle-view.md anew: the curves, in a minute, and the figures.
+# Makes the pictures and tables of docs/bounds.md and the pictures of docs/rectangle-view.md anew: the curves, in a minute, and
+# the figures.
 #
 # usage: tools/bounds.sh [PROGRAM]
 set -euo pipefail
@@ -10,4 +11,7 @@ vera=${1:-build/bin/vera}
 for figure in 3a 3b 3c 3d A1 A2 B1; do
     "$vera" bench figure "$figure" -o "docs/images/figure-$figure.svg"
 done
-"$vera" bench curve all -o docs/images/curves.svg
+curves=$(mktemp)
+trap 'rm -f "$curves"' EXIT
+"$vera" bench curve all -o docs/images/curves.svg --json >"$curves"
+tools/bounds_tables.py "$curves"
