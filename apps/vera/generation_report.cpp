@@ -23,11 +23,11 @@ nlohmann::ordered_json generations_json(std::span<const GenerationCounts> genera
              {"swept", generation.swept},
              {"apart", generation.apart},
              {"begun_within", generation.begun_within},
-             {"pairs", generation.pairs},
+             {"pairs", generation.sweeps.pairs},
              {"crossings", crossings(generation)},
              {"rectangles", generation.sweeps.rectangles},
              {"nodes", generation.trees.nodes},
-             {"reports", generation.sweeps.reports},
+             {"reports", generation.reports()},
              {"steps", generation.steps()},
              {"tests", generation.tests}});
     return list;
@@ -35,20 +35,24 @@ nlohmann::ordered_json generations_json(std::span<const GenerationCounts> genera
 
 std::string generations_text(std::span<const GenerationCounts> generations) {
     GenerationCounts all;
-    std::uint64_t crossed = 0;
     for (const GenerationCounts& generation : generations) {
         all.rays += generation.rays;
-        all.pairs += generation.pairs;
+        all.sweeps += generation.sweeps;
+        all.trees += generation.trees;
         all.tests += generation.tests;
         all.apart += generation.apart;
-        crossed += crossings(generation);
     }
-    std::string text = fmt::format(
-        "{} generations of {} rays: {} crossings of {:.3g} pairs in sweeps, {:.3g} tests a ray",
-        generations.size(),
-        all.rays,
-        crossed,
-        static_cast<double>(all.pairs),
+    std::string text = fmt::format("{} generations of {} rays: ", generations.size(), all.rays);
+    if (all.sweeps.pairs > 0)
+        text += fmt::format(
+            "{} crossings of {:.3g} pairs in sweeps, ",
+            crossings(all),
+            static_cast<double>(all.sweeps.pairs));
+    if (all.trees.nodes > 0)
+        text +=
+            fmt::format("{:.3g} nodes of trees looked at, ", static_cast<double>(all.trees.nodes));
+    text += fmt::format(
+        "{:.3g} tests a ray",
         all.rays == 0 ? 0 : static_cast<double>(all.tests) / static_cast<double>(all.rays));
     if (all.apart > 0)
         text += fmt::format("; {} rays were tested with every primitive", all.apart);

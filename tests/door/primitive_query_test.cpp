@@ -123,6 +123,34 @@ TEST(PrimitiveQuery, TellsOfEachGenerationWhatItTook) {
     EXPECT_NE(told.err.find(" generations of "), std::string::npos) << told.err;
 }
 
+TEST(PrimitiveQuery, TellsNothingOfSweepsThatItDoesNotMake) {
+    const ScratchFolder folder;
+    folder.write("a.vera", degenerate_scene);
+    const std::string render =
+        "render a.vera -o a.png --raster 20x20 --antialias off --strategy primitive-query";
+    for (const std::string queries : {"auto", "sweep", "groups", "nested", "trees"}) {
+        const ProgramRun told = run_vera(folder, render + " --queries " + queries);
+        ASSERT_EQ(told.exit_code, 0) << told.err;
+        EXPECT_EQ(told.err.find("pairs in sweeps") == std::string::npos, queries == "trees")
+            << told.err;
+        EXPECT_EQ(
+            told.err.find("nodes of trees") != std::string::npos,
+            queries == "trees" || queries == "nested")
+            << told.err;
+        const ProgramRun run = run_vera(folder, render + " --json --queries " + queries);
+        ASSERT_EQ(run.exit_code, 0) << run.err;
+        const auto json = nlohmann::json::parse(run.out);
+        for (const auto& generation : json["generations"]) {
+            EXPECT_EQ(generation["apart"], 0);
+            EXPECT_EQ(
+                generation["tests"].get<int>(),
+                generation["reports"].get<int>() + generation["begun_within"].get<int>())
+                << queries;
+            EXPECT_TRUE(queries != "trees" || generation["pairs"] == 0);
+        }
+    }
+}
+
 TEST(PrimitiveQuery, RefusesWhatMeansNothingToIt) {
     const ScratchFolder folder;
     folder.write("a.vera", degenerate_scene);

@@ -8,51 +8,11 @@
 #include "vera/image/image_file.h"
 #include "vera/image/indexed_file.h"
 
-#include <atomic>
-#include <cstdlib>
 #include <filesystem>
-#include <new>
 
+#include "base/counted_memory.h"
 #include <gtest/gtest.h>
-#include <malloc.h>
 #include <unistd.h>
-
-namespace {
-
-std::atomic<std::size_t> taken = 0;
-std::atomic<std::size_t> most_taken = 0;
-
-} // namespace
-
-// Not inlined: the compiler would see that what new gives was not made by new.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-    void* memory = std::malloc(size);
-    if (memory == nullptr)
-        throw std::bad_alloc();
-    const std::size_t now = taken += malloc_usable_size(memory);
-    std::size_t most = most_taken;
-    while (now > most && !most_taken.compare_exchange_weak(most, now)) {
-    }
-    return memory;
-}
-
-[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-    try {
-        return operator new(size);
-    } catch (const std::bad_alloc&) {
-        return nullptr;
-    }
-}
-
-[[gnu::noinline]] void operator delete(void* memory) noexcept {
-    if (memory != nullptr)
-        taken -= malloc_usable_size(memory);
-    std::free(memory);
-}
-
-void operator delete(void* memory, std::size_t /*size*/) noexcept {
-    operator delete(memory);
-}
 
 namespace vera {
 namespace {
@@ -72,8 +32,7 @@ TEST(ColourReduction, OfACompressedRasterTakesOneRowOfTilesAndNotThePicture) {
         file.commit();
     }
     const ThreadLimit limit(1);
-    const std::size_t before = taken;
-    most_taken = before;
+    const testing::MemoryWatch watch;
     {
         const auto bytes = file_bytes(name);
         const CompressedRaster raster(bytes, name);
@@ -92,8 +51,8 @@ TEST(ColourReduction, OfACompressedRasterTakesOneRowOfTilesAndNotThePicture) {
     const std::size_t expanded = 3 * width * height;
     const std::size_t histogram_bytes = (std::size_t{1} << 16) * 32;
     const std::size_t band = 3 * width * 64;
-    EXPECT_LT(most_taken - before, histogram_bytes + 4 * band + 1000000);
-    EXPECT_LT(most_taken - before, expanded / 3);
+    EXPECT_LT(watch.most_bytes(), histogram_bytes + 4 * band + 1000000);
+    EXPECT_LT(watch.most_bytes(), expanded / 3);
     std::filesystem::remove(name);
 }
 

@@ -147,9 +147,57 @@ TEST(PrimitiveQueryIndex, CountsNoCrossingsOfRaysFromOnePointOrToOne) {
     EXPECT_TRUE(generations[1].are_shadow_rays);
     for (const GenerationCounts& generation : generations) {
         EXPECT_EQ(generation.rays, 900U);
-        EXPECT_GT(generation.pairs, 300'000U);
+        EXPECT_GT(generation.sweeps.pairs, 300'000U);
         EXPECT_EQ(generation.sweeps.x_swaps + generation.sweeps.y_swaps, 0U);
         EXPECT_GT(generation.sweeps.reports, 100U);
+    }
+}
+
+/// What generations take of which one asks what it meets, and the next what it lets through: rays
+/// of few points, and those that start where these hit.
+std::vector<GenerationCounts> generations_by(RayQueries queries, const Scene& scene) {
+    const PrimitiveQueryIndex index(scene, {.queries = queries});
+    std::vector<QueryRay> rays = testing::coherent_rays(4, 900, 1);
+    QueryCounts counts;
+    std::vector<Hit> hits(rays.size());
+    index.nearest_hits(rays, hits, counts);
+    const auto next = testing::rays_from_hits(1, rays, hits);
+    rays.insert(rays.end(), next.begin(), next.end());
+    std::vector<Color> transmitted(rays.size());
+    index.transmittances(rays, transmitted, counts);
+    return index.generations();
+}
+
+TEST(PrimitiveQueryIndex, TestsWhatFacesTellAndWhereRaysBeginHoweverItAsks) {
+    testing::RandomSceneSettings settings;
+    settings.items = 30;
+    settings.glass = true;
+    const Scene scene = testing::random_scene(4, settings);
+    const auto by_sweep = generations_by(RayQueries::sweep, scene);
+    ASSERT_EQ(by_sweep.size(), 2U);
+    for (const auto& [queries, name] :
+         {std::pair{RayQueries::automatic, "auto"},
+          std::pair{RayQueries::sweep, "sweep"},
+          std::pair{RayQueries::groups, "groups"},
+          std::pair{RayQueries::nested, "nested"},
+          std::pair{RayQueries::trees, "trees"}}) {
+        const auto generations = generations_by(queries, scene);
+        ASSERT_EQ(generations.size(), by_sweep.size());
+        for (std::size_t i = 0; i < generations.size(); ++i) {
+            const GenerationCounts& generation = generations[i];
+            EXPECT_EQ(generation.apart, 0U);
+            EXPECT_GT(generation.begun_within, 50U);
+            EXPECT_GT(generation.reports(), 500U);
+            EXPECT_EQ(generation.tests, generation.reports() + generation.begun_within) << name;
+            EXPECT_EQ(generation.reports(), by_sweep[i].reports()) << name;
+            // All pairs are in one sweep, or some of them are, or none is.
+            const std::uint64_t pairs = generation.sweeps.pairs;
+            const std::uint64_t of_one_sweep = by_sweep[i].sweeps.pairs;
+            EXPECT_GT(of_one_sweep, 100'000U);
+            EXPECT_LE(pairs, of_one_sweep) << name;
+            EXPECT_EQ(pairs == of_one_sweep, queries == RayQueries::sweep) << name;
+            EXPECT_EQ(pairs == 0, queries == RayQueries::trees) << name;
+        }
     }
 }
 

@@ -141,16 +141,6 @@ TEST(TreeQueries, AreRefusedBeforeMemoryRunsOut) {
     EXPECT_THROW(first_by_nested(4, 2, rectangles, rays), std::runtime_error);
 }
 
-TEST(TreeQueries, TakeNoMoreMemoryThanWasForecast) {
-    Random random(8);
-    for (const testing::RayFamily& family : testing::ray_families()) {
-        const SlopedRays rays = family.rays(256, 500, 3, random);
-        EXPECT_LT(
-            static_cast<double>(RayTrees(rays).bytes()), query_trees_bytes_forecast(0, rays.size()))
-            << family.name;
-    }
-}
-
 TEST(TreeQueries, TellHowFarTheyAreAndCanBeStopped) {
     Random random(10);
     const Rectangles rectangles = testing::rectangles_within(50, 1000, 50, random);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "vera/theory/whole_below.h"
 #include "vera/theory/window_tree.h"
 
 #include <algorithm>
@@ -51,13 +52,9 @@ public:
     std::vector<WindowSegment> all;
 };
 
-std::int32_t any_below(std::int32_t end, std::mt19937_64& random) {
-    return static_cast<std::int32_t>(random() % static_cast<std::uint64_t>(end));
-}
-
 PlaceRange any_range(std::int32_t places, std::mt19937_64& random) {
-    const std::int32_t begin = any_below(places, random);
-    return {begin, begin + 1 + any_below(places - begin, random)};
+    const std::int32_t begin = whole_below(places, random);
+    return {begin, begin + 1 + whole_below(places - begin, random)};
 }
 
 TEST(WindowTree, FindsTheSegmentsThatAListFindsWhileTheyComeAndGo) {
@@ -68,7 +65,7 @@ TEST(WindowTree, FindsTheSegmentsThatAListFindsWhileTheyComeAndGo) {
         WindowTree tree(places, counts);
         PlainSegments plain;
         for (int turn = 0; turn < 4000 && !HasFailure(); ++turn) {
-            const std::int32_t number = any_below(9, random) - 2;
+            const std::int32_t number = whole_below(9, random) - 2;
             const WindowSegment segment = {number, any_range(places, random)};
             if (plain.all.size() < 20 && plain.has_room_for(segment)) {
                 plain.all.push_back(segment);
@@ -80,12 +77,12 @@ TEST(WindowTree, FindsTheSegmentsThatAListFindsWhileTheyComeAndGo) {
                 plain.all.pop_back();
             }
             const PlaceRange along = any_range(places, random);
-            const std::int32_t low = any_below(9, random) - 2;
-            const PlaceRange across = {low, low + any_below(5, random)};
+            const std::int32_t low = whole_below(9, random) - 2;
+            const PlaceRange across = {low, low + whole_below(5, random)};
             const auto in_window = tree.in_window(along, across);
             EXPECT_TRUE(in_window == plain.in_window(along, across)) << "turn " << turn;
             found += in_window.size();
-            const std::int32_t place = any_below(places, random);
+            const std::int32_t place = whole_below(places, random);
             EXPECT_TRUE(tree.last_before(place, low) == plain.last_before(place, low))
                 << "turn " << turn;
         }

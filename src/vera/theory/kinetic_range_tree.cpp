@@ -2,6 +2,7 @@
 #include "vera/theory/kinetic_range_tree.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <utility>
 
@@ -32,9 +33,20 @@ std::size_t bytes_of_entries(std::size_t rays) {
     return rays * levels_of_search_trees(rays) * bytes_of_entry;
 }
 
+/// A sort of so many, whichever the library takes: n ceil(log2 n).
+std::uint64_t comparisons_of_sort(std::size_t count) {
+    return count == 0 ? 0 : count * static_cast<std::uint64_t>(std::bit_width(count - 1));
+}
+
+/// Of so many.
+std::uint64_t pairs_of(std::size_t count) {
+    return count == 0 ? 0 : std::uint64_t{count} * (count - 1) / 2;
+}
+
 } // namespace
 
 SweepCounts& SweepCounts::operator+=(const SweepCounts& more) {
+    pairs += more.pairs;
     x_swaps += more.x_swaps;
     y_swaps += more.y_swaps;
     moves += more.moves;
@@ -65,6 +77,7 @@ KineticRangeTree::KineticRangeTree(
     , counts_(counts)
     , is_added_(rays.size())
     , entries_(bytes_of_entries(rays.size()) + alignof(std::max_align_t)) {
+    counts_.pairs += pairs_of(rays.size());
     for (std::size_t size = std::size_t{1} << leaf_bits;; size *= 2) {
         std::vector<Node>& level = levels_.emplace_back();
         const std::size_t count = (rays.size() + size - 1) / size;
@@ -147,6 +160,7 @@ void KineticRangeTree::add(std::span<const std::uint32_t> rays) {
     std::sort(by_y_.begin(), by_y_.end(), [&](std::uint32_t a, std::uint32_t b) {
         return y_.place(a) < y_.place(b);
     });
+    counts_.comparisons += comparisons_of_sort(rays.size());
     for (const std::uint32_t ray : by_y_) {
         is_added_[ray] = 1;
         for_each_above(x_.place(ray), [&](Node& node) { node.by_y.insert(node.by_y.end(), ray); });

@@ -24,12 +24,15 @@
 
 namespace vera {
 
-/// The steps of sweeps, which are the same on every machine. They add up.
+/// The steps of sweeps, which are the same on every machine. They add up. Without what it takes to
+/// sort rays and rectangles before a sweep moves: O(m log m + n log n).
 struct SweepCounts {
-    std::uint64_t x_swaps = 0;     ///< neighbours that cross, in the plane of x and z
-    std::uint64_t y_swaps = 0;     ///< and in that of y and z
-    std::uint64_t moves = 0;       ///< of a ray into a node's order, or out of it, or within it
-    std::uint64_t comparisons = 0; ///< of rays with others or with a rectangle, in nodes' orders
+    std::uint64_t pairs = 0;   ///< of rays in one sweep, which may cross in each plane: no steps
+    std::uint64_t x_swaps = 0; ///< neighbours that cross, in the plane of x and z
+    std::uint64_t y_swaps = 0; ///< and in that of y and z
+    std::uint64_t moves = 0;   ///< of a ray into a node's order, or out of it, or within it
+    std::uint64_t comparisons = 0; ///< of rays with others or with a rectangle, in nodes' orders;
+                                   ///< n ceil(log2 n) where n are added, which are sorted
     std::uint64_t nodes = 0;       ///< that were looked at for rectangles
     std::uint64_t reports = 0;     ///< of a ray that meets a rectangle
     std::uint64_t rectangles = 0;  ///< that were asked for
@@ -65,7 +68,7 @@ public:
     bool pass_crossing(std::int32_t z);
 
     /// Tells of the rays from now on. O(log^2 m) each, as all that follows; O(log m) where no other
-    /// was added before.
+    /// was added before: they are sorted by y, once.
     void add(std::span<const std::uint32_t> rays);
 
     /// It meets nothing any more. It need not have been added.

@@ -127,7 +127,12 @@ private:
 
         bool enters(RayNode node) const { return sweeps.live_.count_in(node) > 0; }
 
-        void met(RayNode node) const { sweeps.live_.append_of(node, found, sweeps.counts_.trees); }
+        /// What a tree tells; sweeps count themselves what they do.
+        void met(RayNode node) const {
+            const std::size_t before = found.size();
+            sweeps.live_.append_of(node, found, sweeps.counts_.trees);
+            sweeps.counts_.trees.reports += found.size() - before;
+        }
 
         void open_in_y(RayNode node) const { sweeps.ask(node, rectangle, found); }
 

@@ -2,19 +2,12 @@
 #include "vera/theory/overlaid_rectangles.h"
 
 #include "vera/exact/screen_point.h"
+#include "vera/theory/whole_below.h"
 
 #include <cmath>
 #include <random>
 
 namespace vera {
-
-namespace {
-
-std::int32_t any_below(std::int32_t end, std::mt19937_64& random) {
-    return static_cast<std::int32_t>(random() % static_cast<std::uint64_t>(end));
-}
-
-} // namespace
 
 std::vector<IsoRectangle> scattered_squares(std::size_t count, std::uint64_t seed) {
     std::mt19937_64 random(seed);
@@ -22,8 +15,8 @@ std::vector<IsoRectangle> scattered_squares(std::size_t count, std::uint64_t see
         static_cast<std::int32_t>(screen_size * std::sqrt(3.0 / static_cast<double>(count + 3)));
     std::vector<IsoRectangle> made;
     for (std::size_t i = 0; i < count; ++i) {
-        const std::int32_t x = any_below(screen_size - side, random);
-        const std::int32_t y = any_below(screen_size - side, random);
+        const std::int32_t x = whole_below(screen_size - side, random);
+        const std::int32_t y = whole_below(screen_size - side, random);
         made.push_back({static_cast<std::int32_t>(i), x, x + side, y, y + side});
     }
     return made;

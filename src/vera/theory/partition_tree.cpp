@@ -58,6 +58,7 @@ StepCounts& StepCounts::operator+=(const StepCounts& more) {
     points += more.points;
     searches += more.searches;
     counters += more.counters;
+    reports += more.reports;
     return *this;
 }
 

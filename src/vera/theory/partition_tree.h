@@ -24,6 +24,8 @@ struct StepCounts {
     std::uint64_t points = 0;   ///< or rectangles, or rays, looked at one by one
     std::uint64_t searches = 0; ///< in sorted lists
     std::uint64_t counters = 0; ///< of what nodes hold, looked at to report it, or changed
+    std::uint64_t reports = 0;  ///< of a ray that trees of rays tell a rectangle; of a node's all
+                                ///< at once, and so no steps
 
     StepCounts& operator+=(const StepCounts& more);
 

@@ -230,10 +230,12 @@ void PrimitiveQueryIndex::look_where_rays_begin(
         loop.turn(box);
         within.clear();
         points.append_in(grid_.scene_box(boxes_[box]), within);
-        generation.begun_within += within.size();
-        for (const std::uint32_t i : within)
-            if (swept[numbers[i]].end != ended)
-                test(numbers[i], boxed_[box]);
+        for (const std::uint32_t i : within) {
+            if (swept[numbers[i]].end == ended)
+                continue;
+            ++generation.begun_within;
+            test(numbers[i], boxed_[box]);
+        }
     }
 }
 
@@ -267,7 +269,6 @@ void PrimitiveQueryIndex::sweep_along(
         numbers.push_back(ray);
     }
     generation.swept += rays.size();
-    generation.pairs += rays.size() * (rays.size() - (rays.empty() ? 0 : 1)) / 2;
     const Meeting meeting = [&](std::uint32_t rectangle, std::uint32_t i) {
         const std::uint32_t ray = numbers[i];
         const double end = test(ray, boxed_[rectangle]);

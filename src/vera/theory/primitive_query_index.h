@@ -51,12 +51,17 @@ struct GenerationCounts {
     bool are_shadow_rays = false;
     std::uint64_t rays = 0;
     std::uint64_t tests = 0;        ///< of a ray with a primitive
-    std::uint64_t begun_within = 0; ///< boxes in which a ray begins, counted for each ray
+    std::uint64_t begun_within = 0; ///< boxes in which a ray begins, counted for each ray, up to
+                                    ///< the one with what ends it
     std::uint64_t apart = 0;        ///< rays that grids cannot hold: tested with every primitive
-    std::uint64_t swept = 0;        ///< rays in the sweeps, each counted for each of its axes
-    std::uint64_t pairs = 0;        ///< of rays in one sweep, which may cross twice
+    std::uint64_t swept = 0;        ///< rays that come to planes with boxes' faces, each counted
+                                    ///< for each of its axes
     SweepCounts sweeps;
     StepCounts trees; ///< of queries; not what it takes to make them
+
+    /// Rays that boxes' faces tell: with begun_within all tests, where grids hold all rays and
+    /// primitives.
+    std::uint64_t reports() const { return sweeps.reports + trees.reports; }
 
     std::uint64_t steps() const { return sweeps.steps() + trees.steps(); }
 

@@ -183,6 +183,7 @@ Numbers RayTrees::rays_met(const IsoRectangle& rectangle, StepCounts* counts) co
     StepCounts& counted = counts != nullptr ? *counts : steps;
     Numbers found;
     visit(rectangle, counted, EveryRay{*this, rectangle, found, counted});
+    counted.reports += found.size();
     std::sort(found.begin(), found.end());
     return found;
 }
@@ -269,10 +270,12 @@ void LiveRays::append_of(RayNode node, Numbers& rays, StepCounts& counts) const 
 }
 
 void LiveRays::append_met(const IsoRectangle& rectangle, Numbers& rays, StepCounts& counts) const {
+    const std::size_t before = rays.size();
     trees_.visit(
         rectangle,
         counts,
         EveryLiveRay{trees_, *this, x_strip(rectangle), y_strip(rectangle), rays, counts});
+    counts.reports += rays.size() - before;
 }
 
 } // namespace vera

@@ -2,6 +2,7 @@
 // What is visible of triangles: the appendix's sweep, and Franklin's cells beside it.
 #include "vera/theory/experiment.h"
 #include "vera/theory/visible_surface_terms.h"
+#include "vera/theory/whole_below.h"
 #include "vera/visible/cell_raster.h"
 
 #include <algorithm>
@@ -19,10 +20,6 @@ std::uint32_t add_vertex(ScreenScene& scene, ScreenPoint point, std::int64_t nea
     return static_cast<std::uint32_t>(scene.vertices.size() - 1);
 }
 
-std::int32_t any_below(std::int32_t end, std::mt19937_64& random) {
-    return static_cast<std::int32_t>(random() % static_cast<std::uint64_t>(end));
-}
-
 /// Each at a depth of its own; so large that, of so many, about 5 lie one behind the other.
 ScreenScene triangles_of_size(std::size_t count, std::size_t five_deep, std::uint64_t seed) {
     std::mt19937_64 random(seed);
@@ -30,12 +27,12 @@ ScreenScene triangles_of_size(std::size_t count, std::size_t five_deep, std::uin
         static_cast<std::int32_t>(screen_size * std::sqrt(5.0 / static_cast<double>(five_deep)));
     const auto layers = static_cast<std::int64_t>(count + 1);
     const auto coordinate = [&](std::int32_t middle) {
-        return std::clamp(middle + any_below(size, random) - size / 2, 0, screen_size);
+        return std::clamp(middle + whole_below(size, random) - size / 2, 0, screen_size);
     };
     ScreenScene scene;
     for (std::size_t i = 0; i < count; ++i) {
-        const std::int32_t x = any_below(screen_size, random);
-        const std::int32_t y = any_below(screen_size, random);
+        const std::int32_t x = whole_below(screen_size, random);
+        const std::int32_t y = whole_below(screen_size, random);
         std::array<std::uint32_t, 3> vertices = {};
         for (std::uint32_t& vertex : vertices) {
             const std::int32_t corner_x = coordinate(x);
