@@ -23,7 +23,10 @@ def coefficient(number):
 
 
 def follows(curve):
-    return curve["follows"].replace("c ", "")
+    """The formulas that Akaike's criterion does not tell apart, the best one first."""
+    best = sorted(curve["models"], key=lambda model: model["aic_above_best"])
+    formulas = [model["formula"].removeprefix("c ") for model in best if model["aic_above_best"] < 2]
+    return ", or ".join(formula[1:-1] if formula.startswith("(") and formula.endswith(")") else formula for formula in formulas)
 
 
 def foretold(curve):

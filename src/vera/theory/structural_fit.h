@@ -34,8 +34,9 @@ struct StructuralFit {
     double error = 0; ///< of the fit, as a part of the counts: root of the mean square
 };
 
-/// Nothing where there are no more rows than terms that are independent of each other. Throws std::invalid_argument
-/// where a count is not positive, a term is negative, or rows have different numbers of terms.
+/// Nothing where there are no more rows than terms that are independent of each other. Throws
+/// std::invalid_argument where a count is not positive, a term is negative, or rows have different
+/// numbers of terms.
 std::optional<StructuralFit> structural_fit(std::span<const TermRow> rows);
 
 /// Whether a term has the same coefficient in all fits, as far as intervals tell: each overlaps
