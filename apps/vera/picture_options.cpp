@@ -124,7 +124,11 @@ void add_picture_options(CLI::App& command, PictureOptions& options) {
         ->type_name("on|off")
         ->group(group);
     command
-        .add_option("--samples", options.samples, "rays of a pixel that is refined, a power of two")
+        .add_option(
+            "--samples",
+            options.samples,
+            "rays of a pixel that is refined, a power of two; where its colours differ much, up to "
+            "twice as many")
         ->type_name("N")
         ->group(group);
     command

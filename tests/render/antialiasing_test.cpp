@@ -134,6 +134,24 @@ TEST(Antialiasing, CoversPixelsByTheirPart) {
     EXPECT_NEAR(red(result.image, 15, 30), 0.75, 1e-4);
 }
 
+TEST(Antialiasing, ColoursASurfaceThatNoneOfTheFirstRaysMeets) {
+    // A sixteenth of a pixel is met by 2 of 32 rays; 4 have colours, and with luck one of these.
+    SceneMaker maker;
+    maker.material(luminous({1, 1, 1}));
+    for (std::size_t row = 0; row < 16; ++row) {
+        const double left = 10 + static_cast<double>(row) / 16;
+        const double top = static_cast<double>(row);
+        maker.polygon(
+            {{left, top, 0},
+             {left + 0.0625, top, 0},
+             {left + 0.0625, top + 1, 0},
+             {left, top + 1, 0}});
+    }
+    const RenderResult result = antialiased(maker, 20, 16);
+    for (std::size_t row = 0; row < 16; ++row)
+        EXPECT_NEAR(red(result.image, 10, row), 0.0625, 1e-4) << row;
+}
+
 TEST(Antialiasing, ClampsSamplesBeforeItAveragesThem) {
     SceneMaker maker;
     maker.material(luminous({1000, 1000, 1000}));
@@ -181,6 +199,21 @@ TEST(Antialiasing, RefinesAShadowsEdge) {
     maker.scene.lights[0].position.z = -1e6 * 18.0 / 68.25;
     const RenderResult shadowed = antialiased(maker, 64, 64);
     EXPECT_EQ(shadowed.statistics.refined_pixels, 128U);
+}
+
+TEST(Antialiasing, ColoursMoreRaysWhereColoursOfOneSurfaceDiffer) {
+    SceneMaker maker;
+    maker.material(diffuse({1, 1, 1}));
+    maker.polygon({{-99, -99, 9}, {-99, 999, 9}, {999, 999, 9}, {999, -99, 9}});
+    maker.polygon({{100, -99, -9}, {100, 999, -9}, {200, 999, -9}, {200, -99, -9}});
+    maker.light({1e6 + 100, 32, -9 - 18e6 / 79.6875}, 4e12); // the shadow begins at x = 20.3125
+    const RenderResult result = antialiased(maker, 64, 64);
+    EXPECT_EQ(result.statistics.refined_pixels, 128U);
+    // All rays meet one surface, which tells nothing. Twice as many as there are samples have a
+    // colour in the pixels that the shadow's edge crosses, and 4 beside it.
+    EXPECT_EQ(result.statistics.view_rays, 4U * 34 * 34 + 64 * (32 + 4));
+    for (std::size_t y = 0; y < 64; ++y)
+        EXPECT_NEAR(red(result.image, 20, y) / red(result.image, 10, y), 0.3125, 1e-3) << y;
 }
 
 /// A view to the north of a degree and a half a pixel or so, over a profile before a white sky.
@@ -249,10 +282,14 @@ TEST(Antialiasing, UsesAsManyRaysAsAreAskedFor) {
             render_scene(maker.scene, *maker.scene.camera, *index, settings, SampleType::integer8)
                 .statistics;
         EXPECT_EQ(statistics.refined_pixels, 64U) << "a column on each side";
-        // The edge runs through the pixels of one column; those of the other agree in a quarter.
-        const std::uint32_t agreeing = samples >= 8 ? std::max(samples / 4, 4U) : samples;
-        EXPECT_EQ(statistics.view_rays, 34U * 34 + 32 * samples + 32 * agreeing)
+        // A quarter gets a colour, as each of the two surfaces has but one. The edge runs through
+        // the pixels of one column, in which two samples are not enough to know that.
+        const std::uint32_t agreeing = std::min(samples, std::max(samples / 4, 4U));
+        EXPECT_EQ(statistics.view_rays, 34U * 34 + 32 * std::max(agreeing, 4U) + 32 * agreeing)
             << "with the seam around the tile";
+        // The pixels that are not refined are probed once, and centres in the frame beside these.
+        const std::uint32_t asked = samples - std::min(samples, std::max(agreeing, 4U));
+        EXPECT_EQ(statistics.probe_rays, 30U * 32 + 36 * 36 - 34 * 34 + 64 * asked);
         EXPECT_EQ(statistics.extra_view_rays, statistics.view_rays - 32 * 32);
     }
 }

@@ -91,9 +91,11 @@ std::size_t peak_memory() {
 std::vector<PictureSettings> settings_with_and_without_antialiasing() {
     PictureSettings with = Room::settings();
     with.antialiasing.samples = 4;
+    PictureSettings in_parts = with;
+    in_parts.antialiasing.samples = 16; // of which some only ask what is there
     PictureSettings without = with;
     without.antialiasing.on = false;
-    return {with, without};
+    return {with, in_parts, without};
 }
 
 TEST(RenderScene, GivesTheSameBytesAndCountsForAnyNumberOfThreads) {

@@ -16,8 +16,9 @@ namespace {
 constexpr std::size_t frame = 2;
 
 /// Rays along the side of a pixel: so many that nothing of a tenth of the side's length that
-/// crosses it is missed.
+/// crosses it is missed. They are sent in rounds, as the first are mostly enough.
 constexpr std::size_t side_probes = 12;
+constexpr std::size_t side_rounds = 3;
 
 /// Of the 5 x 5 places of a window row by row, the middle one, and the pairs of opposite ones among
 /// its 8 neighbours.
@@ -92,6 +93,7 @@ void TileRefiner::begin(const Tile& tile) {
     is_known_.assign(framed, 0);
     pixels_.assign(tile.width * tile.height, {});
     pending_.clear();
+    strata_.clear();
 }
 
 std::size_t TileRefiner::center_of(std::size_t pixel) const {
@@ -103,21 +105,36 @@ std::uint64_t TileRefiner::picture_pixel(std::size_t pixel) const {
     return row * picture_.raster.width + tile_.x + pixel % tile_.width;
 }
 
-std::uint32_t TileRefiner::samples_wanted(const Pixel& pixel) const {
-    constexpr std::uint32_t most = 256;
-    constexpr std::uint32_t least_part = 4; // two agree by chance too often
-    const std::uint32_t samples = picture_.settings.samples;
-    if (pixel.wanted == Refinement::thin_alone)
-        return std::max(samples, std::min(2 * samples, most));
-    // The beginning of a net of samples is a net itself.
-    const bool in_parts = pixel.wanted == Refinement::edge && samples > least_part;
-    if (in_parts && (pixel.samples == 0 || !differ(pixel)))
-        return std::max(samples / 4, least_part);
-    return samples;
+std::uint32_t TileRefiner::twice_samples() const {
+    return std::min(2 * picture_.settings.samples, PictureLimits::most_samples);
 }
 
-bool TileRefiner::differ(const Pixel& pixel) const {
-    return !(largest_difference(pixel.least, pixel.most) <= picture_.settings.tolerance);
+std::uint32_t TileRefiner::shaded_wanted(std::size_t number) const {
+    const Pixel& pixel = pixels_[number];
+    constexpr std::uint32_t least_part = 4; // two agree by chance too often
+    const std::uint32_t samples = picture_.settings.samples;
+    // The beginning of a net of samples is a net itself.
+    if (pixel.shaded == 0)
+        return std::min(samples, std::max(samples / 4, least_part));
+    if (pixel.shaded >= twice_samples())
+        return pixel.shaded;
+    // What is wrong falls as n^-0.75 with n samples of a net, where edges cross it, and what one
+    // more of them brings as n^-1.75.
+    const double quarters = 4.0 * pixel.shaded / samples;
+    const double enough =
+        picture_.settings.tolerance * quarters * std::sqrt(quarters * std::sqrt(quarters));
+    // A pixel in which something thin is seen may know its centre without the colour.
+    const bool has_color = pixel.reached == Refinement::edge;
+    const Color* center = has_color ? &centers_[center_of(number)].color : nullptr;
+    return strata_.deviation(pixel.strata, center) <= enough ? pixel.shaded : 2 * pixel.shaded;
+}
+
+std::uint32_t TileRefiner::covered_wanted(const Pixel& pixel) const {
+    const std::uint32_t samples = picture_.settings.samples;
+    if (pixel.reached == Refinement::thin_alone)
+        return twice_samples();
+    const bool is_edge = pixel.is_edge || strata_.shows_several(pixel.strata);
+    return is_edge || pixel.reached == Refinement::thin ? samples : 0;
 }
 
 TileRefiner::Window TileRefiner::window(std::size_t pixel) const {
@@ -248,7 +265,13 @@ void TileRefiner::want(std::size_t pixel, Refinement refinement) {
     if (refinement <= pixels_[pixel].wanted || refinement <= picture_.refined[picture_pixel(pixel)])
         return;
     pixels_[pixel].wanted = refinement;
-    pending_.push_back(pixel);
+    queue(pixel);
+}
+
+void TileRefiner::queue(std::size_t pixel) {
+    if (!pixels_[pixel].is_queued)
+        pending_.push_back(pixel);
+    pixels_[pixel].is_queued = true;
 }
 
 bool TileRefiner::is_in_tile(std::size_t x, std::size_t y) const {
@@ -269,42 +292,49 @@ void TileRefiner::refine_pending() {
         std::size_t ray_count = 0;
         for (; next < pending_.size() && ray_count < picture_.traced.generation_size; ++next) {
             Pixel& pixel = pixels_[pending_[next]];
-            const std::uint32_t wanted = std::max(samples_wanted(pixel), pixel.samples);
-            if (wanted == pixel.samples && pixel.wanted == pixel.reached)
-                continue;
-            jobs_.push_back({pending_[next], pixel.samples, wanted, pixel.wanted});
-            ray_count += wanted - pixel.samples;
-            pixel.samples = wanted;
+            pixel.is_queued = false;
+            // From the beginning also where it has been refined less far: what is seen of a pixel
+            // must not depend on when it was found out how far it is refined.
+            if (pixel.reached != pixel.wanted)
+                pixel.shaded = 0;
             pixel.reached = pixel.wanted;
+            const std::uint32_t wanted = shaded_wanted(pending_[next]);
+            jobs_.push_back({pending_[next], pixel.shaded, wanted});
+            ray_count += wanted - pixel.shaded;
+            pixel.shaded = wanted;
         }
         see_centers_around(jobs_);
+        for (const Job& job : jobs_)
+            if (job.first_shaded == 0)
+                begin_strata(job.pixel);
+        shade_samples();
+        cover_pixels();
 
-        rays_.clear();
-        for (const Job& job : jobs_) {
-            const std::size_t x = tile_.x + job.pixel % tile_.width;
-            const std::size_t y = tile_.y + job.pixel / tile_.width;
-            for (std::uint32_t sample = job.first_sample; sample < job.last_sample; ++sample)
-                rays_.push_back(picture_.raster.ray(
-                    static_cast<double>(x),
-                    static_cast<double>(y),
-                    net_position(picture_pixel(job.pixel), sample)));
-        }
-        trace_samples();
-        tracer_.statistics.extra_view_rays += rays_.size();
-
-        std::size_t first_ray = 0;
         followed_.clear();
         for (const Job& job : jobs_) {
-            add_samples(job, first_ray);
-            if (job.refinement >= Refinement::thin || sees_thin_things(job, first_ray))
+            Pixel& pixel = pixels_[job.pixel];
+            if (!pixel.is_followed && sees_thin_things(pixel, job.pixel)) {
+                pixel.is_followed = true;
                 followed_.push_back(job.pixel);
-            develop_pixel(job);
-            if (samples_wanted(pixels_[job.pixel]) > job.last_sample)
-                pending_.push_back(job.pixel);
-            first_ray += job.last_sample - job.first_sample;
+            }
+            develop_pixel(job.pixel);
+            if (shaded_wanted(job.pixel) > pixel.shaded)
+                queue(job.pixel);
         }
         follow_thin_things();
     }
+}
+
+void TileRefiner::begin_strata(std::size_t number) {
+    Pixel& pixel = pixels_[number];
+    const Window around = window(number);
+    const Seen& center = around[middle];
+    const auto is_other = [&](std::size_t place) { return !same_surface(center, around[place]); };
+    pixel.is_edge = std::any_of(opposites.begin(), opposites.end(), [&](const auto& pair) {
+        return is_other(pair[0]) || is_other(pair[1]);
+    });
+    pixel.covered = 0;
+    pixel.strata = strata_.begin(center);
 }
 
 void TileRefiner::see_centers_around(std::span<const Job> jobs) {
@@ -329,34 +359,91 @@ void TileRefiner::trace_samples() {
     tracer_.statistics.view_rays += rays_.size();
 }
 
-void TileRefiner::add_samples(const Job& job, std::size_t first_ray) {
-    // One after another from the first, also when a pixel's samples come in two parts.
-    Pixel& pixel = pixels_[job.pixel];
-    if (job.first_sample == 0)
-        pixel.least = pixel.most = centers_[center_of(job.pixel)].color;
-    for (std::uint32_t i = 0; i < job.last_sample - job.first_sample; ++i) {
-        const Color color = clamped(colors_[first_ray + i]);
-        pixel.sum += color;
-        pixel.least = min(pixel.least, color);
-        pixel.most = max(pixel.most, color);
+void TileRefiner::shade_samples() {
+    rays_.clear();
+    samples_.clear();
+    for (const Job& job : jobs_)
+        for (std::uint32_t sample = job.first_shaded; sample < job.last_shaded; ++sample) {
+            const bool is_shaded =
+                strata_.any(pixels_[job.pixel].strata, [&](const Stratum& stratum) {
+                    return stratum.shaded_ahead == sample;
+                });
+            if (!is_shaded)
+                send_sample(job.pixel, sample);
+        }
+    trace_samples();
+    tracer_.statistics.extra_view_rays += rays_.size();
+
+    for (std::size_t ray = 0; ray < rays_.size(); ++ray) {
+        const auto [number, sample] = samples_[ray];
+        const Pixel& pixel = pixels_[number];
+        Stratum& stratum = strata_[strata_.find_or_add(pixel.strata, seen_by_ray(ray))];
+        if (sample >= pixel.covered)
+            ++stratum.covered;
+        stratum.add(clamped(colors_[ray]));
     }
+    for (const Job& job : jobs_)
+        pixels_[job.pixel].covered = std::max(pixels_[job.pixel].covered, job.last_shaded);
 }
 
-bool TileRefiner::sees_thin_things(const Job& job, std::size_t first_ray) const {
-    const Window around = window(job.pixel);
-    const bool own_is_thin = is_thin(around, around[middle]);
-    for (std::uint32_t i = 0; i < job.last_sample - job.first_sample; ++i) {
-        const Seen sample = seen_by_ray(first_ray + i);
-        if (!own_is_thin && same_surface(around[middle], sample))
-            continue;
-        if (is_thin(around, sample))
-            return true;
+void TileRefiner::cover_pixels() {
+    rays_.clear();
+    samples_.clear();
+    for (const Job& job : jobs_) {
+        Pixel& pixel = pixels_[job.pixel];
+        const std::uint32_t wanted = covered_wanted(pixel);
+        for (std::uint32_t sample = pixel.covered; sample < wanted; ++sample)
+            send_sample(job.pixel, sample);
+        pixel.covered = std::max(pixel.covered, wanted);
     }
-    return false;
+    probe();
+
+    // What no ray has been shaded of gets its colour from the first that meets it.
+    std::size_t ahead = 0;
+    targets_.clear();
+    for (std::size_t ray = 0; ray < rays_.size(); ++ray) {
+        const auto [number, sample] = samples_[ray];
+        const std::size_t met = strata_.find_or_add(pixels_[number].strata, seen_by_ray(ray));
+        Stratum& stratum = strata_[met];
+        if (++stratum.covered > 1)
+            continue;
+        stratum.shaded_ahead = sample;
+        targets_.push_back(met);
+        rays_[ahead] = rays_[ray];
+        hits_[ahead] = hits_[ray];
+        surfaces_[ahead] = surfaces_[ray];
+        ++ahead;
+    }
+    rays_.resize(ahead);
+    hits_.resize(ahead);
+    surfaces_.resize(ahead);
+    colors_.resize(ahead);
+    tracer_.shade(rays_, hits_, surfaces_, colors_);
+    tracer_.statistics.view_rays += ahead;
+    tracer_.statistics.extra_view_rays += ahead;
+    tracer_.statistics.probe_rays -= ahead;
+    for (std::size_t i = 0; i < ahead; ++i)
+        strata_[targets_[i]].add(clamped(colors_[i]));
+}
+
+void TileRefiner::send_sample(std::size_t pixel, std::uint32_t sample) {
+    samples_.push_back({pixel, sample});
+    rays_.push_back(picture_.raster.ray(
+        static_cast<double>(tile_.x + pixel % tile_.width),
+        static_cast<double>(tile_.y + pixel / tile_.width),
+        net_position(picture_pixel(pixel), sample)));
+}
+
+bool TileRefiner::sees_thin_things(const Pixel& pixel, std::size_t number) const {
+    if (pixel.reached >= Refinement::thin)
+        return true;
+    // What the centre shows is not thin, or the pixel would be refined as such.
+    const Window around = window(number);
+    return strata_.any(
+        pixel.strata, [&](const Stratum& stratum) { return is_thin(around, stratum.seen); });
 }
 
 void TileRefiner::follow_thin_things() {
-    rays_.clear();
     crossings_.clear();
     for (const std::size_t pixel : followed_) {
         const std::size_t x = tile_.x + pixel % tile_.width;
@@ -371,23 +458,38 @@ void TileRefiner::follow_thin_things() {
         if (y + 1 < picture_.raster.height)
             look_along_side(pixel, refinement, x, y + 1);
     }
+    for (std::size_t round = 0; round < side_rounds && !crossings_.empty(); ++round)
+        probe_sides(round);
+}
+
+void TileRefiner::probe_sides(std::size_t round) {
+    rays_.clear();
+    for (const Crossing& crossing : crossings_)
+        for (std::size_t i = round; i < side_probes; i += side_rounds)
+            rays_.push_back(side_ray(crossing, i));
     probe();
-    for (std::size_t i = 0; i < crossings_.size(); ++i) {
-        const Crossing& crossing = crossings_[i];
+    std::size_t ray = 0;
+    std::size_t unfinished = 0;
+    for (const Crossing& crossing : crossings_) {
         const Window around = window(crossing.pixel);
         std::optional<Seen> last;
-        for (std::size_t ray = i * side_probes; ray < (i + 1) * side_probes; ++ray) {
+        bool found = false;
+        for (std::size_t i = round; i < side_probes; i += side_rounds, ++ray) {
+            if (found)
+                continue;
             const Seen one = seen_by_ray(ray);
             // One ray after another sees the same face: a glance at one of them is enough.
             if (last && last->face == one.face && last->below_profile == one.below_profile)
                 continue;
             last = one;
-            if (is_thin(around, one)) {
-                want_neighbour(crossing.x, crossing.y, crossing.refinement);
-                break;
-            }
+            found = is_thin(around, one);
         }
+        if (found)
+            want_neighbour(crossing.x, crossing.y, crossing.refinement);
+        else
+            crossings_[unfinished++] = crossing;
     }
+    crossings_.resize(unfinished);
 }
 
 void TileRefiner::look_along_side(
@@ -395,33 +497,33 @@ void TileRefiner::look_along_side(
     if (is_in_tile(x, y) && pixels_[(y - tile_.y) * tile_.width + x - tile_.x].wanted >= refinement)
         return;
     crossings_.push_back({pixel, x, y, refinement});
-    // The places lie on the side that the two pixels have in common, whose middle is halfway
-    // between their centres.
-    const std::size_t column = tile_.x + pixel % tile_.width;
-    const std::size_t row = tile_.y + pixel / tile_.width;
-    const auto own_x = static_cast<double>(column);
-    const auto own_y = static_cast<double>(row);
-    const double to_x = static_cast<double>(x) - own_x;
-    const double to_y = static_cast<double>(y) - own_y;
-    for (std::size_t i = 0; i < side_probes; ++i) {
-        const double along = (static_cast<double>(i) + 0.5) / side_probes - 0.5;
-        const SamplePosition position = {
-            0.5 + 0.5 * to_x + along * std::abs(to_y), 0.5 + 0.5 * to_y + along * std::abs(to_x)};
-        rays_.push_back(picture_.raster.ray(own_x, own_y, position));
-    }
 }
 
-void TileRefiner::develop_pixel(const Job& job) {
-    Refinement& refined = picture_.refined[picture_pixel(job.pixel)];
+QueryRay TileRefiner::side_ray(const Crossing& crossing, std::size_t i) const {
+    // The places lie on the side that the two pixels have in common, whose middle is halfway
+    // between their centres.
+    const auto own_x = static_cast<double>(tile_.x + crossing.pixel % tile_.width);
+    const auto own_y = static_cast<double>(tile_.y + crossing.pixel / tile_.width);
+    const double to_x = static_cast<double>(crossing.x) - own_x;
+    const double to_y = static_cast<double>(crossing.y) - own_y;
+    const double along = (static_cast<double>(i) + 0.5) / side_probes - 0.5;
+    const SamplePosition position = {
+        0.5 + 0.5 * to_x + along * std::abs(to_y), 0.5 + 0.5 * to_y + along * std::abs(to_x)};
+    return picture_.raster.ray(own_x, own_y, position);
+}
+
+void TileRefiner::develop_pixel(std::size_t number) {
+    const Pixel& pixel = pixels_[number];
+    Refinement& refined = picture_.refined[picture_pixel(number)];
     if (refined == Refinement::center)
         ++tracer_.statistics.refined_pixels;
-    refined = job.refinement;
-    const Color mean = (1.0 / job.last_sample) * pixels_[job.pixel].sum;
+    refined = pixel.reached;
+    const Color color = strata_.color(pixel.strata);
     develop(
-        std::span(&mean, 1),
+        std::span(&color, 1),
         picture_.image,
-        tile_.x + job.pixel % tile_.width,
-        tile_.y + job.pixel / tile_.width);
+        tile_.x + number % tile_.width,
+        tile_.y + number / tile_.width);
 }
 
 } // namespace vera

@@ -3,6 +3,7 @@
 
 #include "vera/image/image.h"
 #include "vera/render/generations.h"
+#include "vera/render/pixel_strata.h"
 #include "vera/render/raster.h"
 #include "vera/render/seen.h"
 #include "vera/render/tiles.h"
@@ -19,9 +20,9 @@ namespace vera {
 /// How far a pixel is refined.
 enum class Refinement : std::uint8_t {
     center,    ///< one ray
-    edge,      ///< a quarter of Antialiasing::samples, 4 at least, and all where these differ
-    thin,      ///< all of them
-    thin_alone ///< twice as many
+    edge,      ///< by Antialiasing::samples rays, a part of them if it shows one surface
+    thin,      ///< by all of them
+    thin_alone ///< by twice as many
 };
 
 /// The wish that a pixel, numbered row by row, be refined.
@@ -58,12 +59,17 @@ public:
     RenderStatistics statistics() const { return tracer_.statistics; }
 
 private:
-    /// A pixel's further rays.
+    /// Samples of a pixel that get a colour together.
     struct Job {
         std::size_t pixel = 0; ///< in the tile
-        std::uint32_t first_sample = 0;
-        std::uint32_t last_sample = 0;
-        Refinement refinement = Refinement::edge;
+        std::uint32_t first_shaded = 0;
+        std::uint32_t last_shaded = 0;
+    };
+
+    /// A ray of a pixel.
+    struct Sample {
+        std::size_t pixel = 0; ///< in the tile
+        std::uint32_t number = 0;
     };
 
     /// A side over which something thin may go on to a neighbour.
@@ -78,10 +84,12 @@ private:
     struct Pixel {
         Refinement wanted = Refinement::center;
         Refinement reached = Refinement::center;
-        std::uint32_t samples = 0;
-        Color sum;   ///< of the samples
-        Color least; ///< of the centre's and the samples' colours, channel by channel
-        Color most;
+        bool is_edge = false;      ///< a neighbour's centre shows another surface
+        bool is_queued = false;    ///< it is pending
+        bool is_followed = false;  ///< it was asked where its thin things go on
+        std::uint32_t shaded = 0;  ///< the first samples, which have a colour
+        std::uint32_t covered = 0; ///< the first samples, of which it is known what they meet
+        std::size_t strata = PixelStrata::none;
     };
 
     /// The centres in a pixel's surroundings.
@@ -116,14 +124,19 @@ private:
     void see_unknown_centers();
     void probe();
     void trace_samples();
-    void add_samples(const Job& job, std::size_t first_ray);
-    bool sees_thin_things(const Job& job, std::size_t first_ray) const;
+    void begin_strata(std::size_t number);
+    void shade_samples();
+    void cover_pixels();
+    void send_sample(std::size_t pixel, std::uint32_t sample);
+    bool sees_thin_things(const Pixel& pixel, std::size_t number) const;
     void follow_thin_things();
     void look_along_side(std::size_t pixel, Refinement refinement, std::size_t x, std::size_t y);
-    void develop_pixel(const Job& job);
+    void probe_sides(std::size_t round);
+    void develop_pixel(std::size_t number);
     Seen seen_by_ray(std::size_t ray) const;
 
     void want(std::size_t pixel, Refinement refinement);
+    void queue(std::size_t pixel);
     void want_neighbour(std::size_t x, std::size_t y, Refinement refinement);
     bool differs(const Window& window) const;
     Window window(std::size_t pixel) const;
@@ -131,8 +144,10 @@ private:
     bool is_in_tile(std::size_t x, std::size_t y) const;
     std::size_t center_of(std::size_t pixel) const;
     std::uint64_t picture_pixel(std::size_t pixel) const;
-    std::uint32_t samples_wanted(const Pixel& pixel) const;
-    bool differ(const Pixel& pixel) const;
+    std::uint32_t shaded_wanted(std::size_t number) const;
+    std::uint32_t twice_samples() const;
+    std::uint32_t covered_wanted(const Pixel& pixel) const;
+    QueryRay side_ray(const Crossing& crossing, std::size_t i) const;
 
     const RefinedPicture& picture_;
     GenerationTracer tracer_;
@@ -143,11 +158,13 @@ private:
     std::vector<Pixel> pixels_;
     std::vector<std::size_t> pending_;
     std::vector<Job> jobs_;
+    PixelStrata strata_;
     std::vector<std::size_t> followed_; ///< pixels in which something thin is seen
     std::vector<Crossing> crossings_;
 
     std::vector<QueryRay> rays_;
     std::vector<std::size_t> targets_; ///< what the rays are for
+    std::vector<Sample> samples_;      ///< of which the rays are
     std::vector<Hit> hits_;
     std::vector<SurfacePoint> surfaces_;
     std::vector<Color> colors_;
