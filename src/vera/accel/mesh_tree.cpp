@@ -50,7 +50,20 @@ void check_corners(const MeshSpans& mesh) {
         vertices));
 }
 
-/// The box of the corners; empty where a coordinate is not finite.
+/// The largest coordinate of the corners, without its sign; 0 where one is not finite, as such a
+/// triangle is left out.
+float size_of(const MeshSpans& mesh, const Corners& corners) {
+    float size = 0;
+    for (const std::uint32_t corner : corners)
+        for (const float coordinate : mesh.vertices[corner]) {
+            if (!std::isfinite(coordinate))
+                return 0;
+            size = std::max(size, std::abs(coordinate));
+        }
+    return size;
+}
+
+/// The box of the corners, scaled; empty where a coordinate is not finite.
 FloatBox box_of(const MeshSpans& mesh, const Corners& corners, const FloatScale& scale) {
     FloatBox box;
     for (const std::uint32_t corner : corners)
@@ -75,12 +88,12 @@ MeshTree build_mesh_tree(MeshSpans mesh, MeshIndexQuality quality, const CancelF
     check_corners(mesh);
     MeshTree tree;
     tree.mesh = mesh;
-    set_scale(
-        tree, mesh.vertices, [](const auto&) { return true; }, 1);
-    const FloatScale& scale = tree.scale;
+    const float largest = largest_size(
+        mesh.triangles.size(), [&](std::size_t i) { return size_of(mesh, mesh.triangles[i]); });
+    set_scale(tree, static_cast<double>(largest));
     std::vector<BoxReference> references =
         float_references(mesh.triangles.size(), [&](std::size_t i) {
-            return box_of(mesh, mesh.triangles[i], scale);
+            return box_of(mesh, mesh.triangles[i], tree.scale);
         });
     const std::size_t triangles = references.size();
     const std::size_t leaves =
@@ -89,7 +102,7 @@ MeshTree build_mesh_tree(MeshSpans mesh, MeshIndexQuality quality, const CancelF
             for (std::size_t corner = 0; corner < 3; ++corner)
                 for (std::size_t axis = 0; axis < 3; ++axis)
                     numbers[3 * corner + axis] =
-                        scale(mesh.vertices[mesh.triangles[triangle][corner]][axis]);
+                        mesh.vertices[mesh.triangles[triangle][corner]][axis];
             return numbers;
         });
     tree.statistics = {
