@@ -167,10 +167,10 @@ private:
     std::size_t done_ = 0;
 };
 
-/// No more than 256 colours can need, with long comments: a device has no end.
+/// No more than 256 colours can need, with long comments.
 std::vector<std::byte> palette_bytes(const std::string& name) {
     constexpr std::size_t most = std::size_t{1} << 20U;
-    std::vector<std::byte> bytes = file_bytes(name, most + 1);
+    std::vector<std::byte> bytes = file_bytes(name, most);
     if (bytes.size() > most)
         throw InputError({Diagnostic{
             .place = {.file = name},

@@ -192,7 +192,11 @@ TEST_F(ConvertCommand, RefusesWhatMakesNoSense) {
     EXPECT_EQ(run_vera(folder, "convert none.png b.png").exit_code, 3);
     const ProgramRun endless = run_vera(folder, "convert a.png b.png --palette /dev/zero");
     EXPECT_EQ(endless.exit_code, 1);
-    EXPECT_THAT(endless.err, HasSubstr("this is no palette: it has more than a million bytes"));
+    EXPECT_THAT(endless.err, HasSubstr("more than 1 MiB came from this pipe or device"));
+    folder.write("long.txt", std::string((1U << 20U) + 1, '\n'));
+    const ProgramRun longest = run_vera(folder, "convert a.png b.png --palette long.txt");
+    EXPECT_EQ(longest.exit_code, 1);
+    EXPECT_THAT(longest.err, HasSubstr("this is no palette: it has more than a million bytes"));
     folder.write("broken.png", "no picture");
     EXPECT_EQ(run_vera(folder, "convert broken.png b.png").exit_code, 1);
 }

@@ -352,6 +352,15 @@ TEST(DecodedImage, NamesWhatItCannotRead) {
     EXPECT_THAT(problem("P6 2147483647 2147483647 255\nabc"), HasSubstr("it ends early"));
 }
 
+TEST(ImageBytes, OfADeviceWithoutAnEndAreRefused) {
+    try {
+        file_bytes("/dev/zero", 100'000);
+        FAIL() << "it was read";
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("/dev/zero: more than 100000 bytes came"));
+    }
+}
+
 TEST_F(ImageFile, MayBeLargeAndOfOneColor) {
     for (const ImageFileFormat format : all_formats) {
         write_image(blank_image(1000, 800, sample_type(format)), folder / "a", format);
