@@ -51,6 +51,25 @@ TEST(PackedPoint, IsUnpackedAsItWas) {
     EXPECT_EQ(RationalPoint(PackedPoint{}), RationalPoint{});
 }
 
+TEST(PackedPoint, HasRoomForThePictureAndTakesNothingThatItHasNoRoomFor) {
+    // More than any point of the picture has: a fraction of the longest denominator beside the
+    // largest coordinates.
+    constexpr std::int64_t longest = (std::int64_t{1} << 48) - 1;
+    constexpr std::int32_t largest = (1 << 24) - 1;
+    const RationalPoint last = {{largest, largest}, longest - 1, longest - 1, longest};
+    EXPECT_EQ(RationalPoint(PackedPoint(last)), last);
+    const std::array wrong = {
+        RationalPoint{{-1, 0}},
+        RationalPoint{{0, -1}},
+        RationalPoint{{largest + 1, 0}},
+        RationalPoint{{0, largest + 1}},
+        RationalPoint{{0, 0}, -1, 0, 1},
+        RationalPoint{{0, 0}, 0, -1, 1},
+        RationalPoint{{0, 0}, 0, 0, longest + 1}};
+    for (const RationalPoint& point : wrong)
+        EXPECT_DEATH(PackedPoint{point}, "point.whole.x");
+}
+
 TEST(PackedPoint, EqualsAndHashesAsThePointsDo) {
     const std::vector<RationalPoint> points = crossings(600);
     std::size_t equal = 0;
