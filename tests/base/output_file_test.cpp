@@ -12,6 +12,7 @@
 #include <thread>
 #include <vector>
 
+#include "base/scratch_folder.h"
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -83,13 +84,7 @@ int error_code(const std::function<void()>& work, const std::string& text) {
 /// An empty folder for a test, removed at its end.
 class OutputFileTest : public testing::Test {
 protected:
-    OutputFileTest() {
-        std::string name = (fs::temp_directory_path() / "vera-output-XXXXXX").native();
-        folder = mkdtemp(name.data());
-        target = folder / "picture.png";
-    }
-
-    ~OutputFileTest() override { fs::remove_all(folder); }
+    OutputFileTest() { target = folder / "picture.png"; }
 
     /// The message with which opening a file at the path fails.
     static std::string message(const fs::path& path) {
@@ -101,7 +96,8 @@ protected:
         return "";
     }
 
-    fs::path folder;
+    ScratchFolder scratch;
+    fs::path folder = scratch.path();
     fs::path target;
 };
 

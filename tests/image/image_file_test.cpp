@@ -12,6 +12,7 @@
 #include <random>
 #include <system_error>
 
+#include "base/scratch_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -42,14 +43,8 @@ constexpr ImageFileFormat all_formats[] = {
 /// An empty folder for a test, removed at its end.
 class ImageFile : public testing::Test {
 protected:
-    ImageFile() {
-        std::string name = (fs::temp_directory_path() / "vera-image-XXXXXX").native();
-        folder = mkdtemp(name.data());
-    }
-
-    ~ImageFile() override { fs::remove_all(folder); }
-
-    fs::path folder;
+    ScratchFolder scratch;
+    fs::path folder = scratch.path();
 };
 
 std::string content(const fs::path& path) {
