@@ -47,6 +47,28 @@ inline void set_scale(FloatTree& tree, double largest) {
     tree.scale_back = FloatScale(-tree.exponent);
 }
 
+/// Whether each of the numbers can be had back from what it becomes.
+template <std::size_t Count>
+bool scales_exactly(const FloatTree& tree, const std::array<float, Count>& numbers) {
+    return std::all_of(numbers.begin(), numbers.end(), [&](float number) {
+        return tree.scale_back(tree.scale(number)) == number || !std::isfinite(number);
+    });
+}
+
+/// Whether that holds for each of so many numbers.
+template <typename Holds>
+bool holds_for_all(std::size_t count, const Holds& holds) {
+    std::atomic<bool> all = true;
+    parallel_ranges(count, float_tree_grain, [&](std::size_t first, std::size_t last) {
+        bool of_part = true;
+        for (std::size_t i = first; i < last; ++i)
+            of_part = of_part && holds(i);
+        if (!of_part)
+            all = false;
+    });
+    return all;
+}
+
 /// The boxes of so many elements; those of which box_of(number) is empty are left out.
 template <typename BoxOf>
 std::vector<BoxReference> float_references(std::size_t count, const BoxOf& box_of) {
@@ -86,24 +108,17 @@ std::size_t grow_float_tree(
     tree.leaves.reserve(numbers);
     prefer_large_pages(tree.leaves.data(), numbers * sizeof(float));
     tree.leaves.resize(numbers);
-    std::atomic<bool> exact = true;
     const auto fill = [&](const TreeChild& leaf) {
-        bool all_exact = true;
         const std::size_t size = leaf_size(leaf);
         float* const rows = tree.leaves.data() + Tree::leaf_rows * leaf.first();
         for (std::size_t i = 0; i < size; ++i) {
             const std::uint32_t element = boxes.references[leaf.first() + i].element;
             const auto values = numbers_of(element);
             static_assert(values.size() == Tree::leaf_rows - 1);
-            for (std::size_t row = 0; row < values.size(); ++row) {
-                const float scaled = tree.scale(values[row]);
-                all_exact = all_exact && tree.scale_back(scaled) == values[row];
-                rows[row * size + i] = scaled;
-            }
+            for (std::size_t row = 0; row < values.size(); ++row)
+                rows[row * size + i] = values[row];
             rows[(Tree::leaf_rows - 1) * size + i] = std::bit_cast<float>(element);
         }
-        if (!all_exact)
-            exact = false;
     };
     parallel_ranges(boxes.nodes.size(), 256, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i)
@@ -111,7 +126,6 @@ std::size_t grow_float_tree(
                 if (child.is_block() != 0)
                     fill(child);
     });
-    tree.exact = exact;
     tree.levels = boxes.levels;
     tree.nodes = std::move(boxes.nodes);
     prefer_large_pages(tree.nodes.data(), tree.nodes.size() * sizeof(WideNode));

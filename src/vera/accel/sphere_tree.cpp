@@ -54,12 +54,18 @@ SphereTree build_sphere_tree(SphereSpan spheres, IndexQuality quality, const Can
     const float largest =
         largest_size(spheres.size(), [&](std::size_t i) { return size_of(spheres[i]); });
     set_scale(tree, 2 * static_cast<double>(largest));
+    tree.exact = holds_for_all(spheres.size(), [&](std::size_t i) {
+        return !is_sphere(spheres[i]) || scales_exactly(tree, spheres[i]);
+    });
     std::vector<BoxReference> references = float_references(
         spheres.size(), [&](std::size_t i) { return box_of(spheres[i], tree.scale); });
     const std::size_t met = references.size();
     const std::size_t leaves =
         grow_float_tree(tree, std::move(references), quality, cancel, [&](std::uint32_t sphere) {
-            return spheres[sphere];
+            std::array<float, 4> numbers = spheres[sphere];
+            for (float& number : numbers)
+                number = tree.scale(number);
+            return numbers;
         });
     tree.statistics = {
         met, spheres.size() - met, tree.levels, tree.nodes.size(), leaves, bytes_of(tree)};
