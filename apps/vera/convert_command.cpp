@@ -8,6 +8,7 @@
 #include "vera/image/indexed_file.h"
 
 #include <algorithm>
+#include <deque>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -167,10 +168,10 @@ private:
     std::size_t done_ = 0;
 };
 
-/// No more than 256 colours can need, with long comments: a device has no end.
+/// No more than 256 colours can need, with long comments.
 std::vector<std::byte> palette_bytes(const std::string& name) {
     constexpr std::size_t most = std::size_t{1} << 20U;
-    std::vector<std::byte> bytes = file_bytes(name, most + 1);
+    std::vector<std::byte> bytes = file_bytes(name, most);
     if (bytes.size() > most)
         throw InputError({Diagnostic{
             .place = {.file = name},
@@ -263,14 +264,14 @@ void write_reduced(
             write_settings(request, format));
 }
 
+/// The caller commits.
 void write_one(
     const Request& request,
     const Format& format,
     PictureSource& source,
-    const fs::path& path,
+    OutputFile& file,
     const Palette* palette_of_all,
     const Console& console) {
-    OutputFile file(path);
     if (format.is_gif() || request.is_reduced()) {
         source.display();
         const Palette palette =
@@ -284,7 +285,6 @@ void write_one(
             metadata(),
             write_settings(request, format));
     }
-    file.commit();
 }
 
 std::vector<PictureSource> sources_of(const Request& request) {
@@ -331,14 +331,10 @@ void write_animation(const Request& request, const Console& console) {
     file.commit();
 }
 
-/// Throws where a picture cannot be read or cut: none is to be written then.
-void read_all_once(const Request& request) {
-    for (const std::string& input : request.inputs())
-        PictureSource(input, request.crop, request.exposure).image(SampleType::integer8);
-}
-
-void write_series(const Request& request, const Format& format, const Console& console) {
-    std::map<fs::path, std::string> outputs;
+/// Where each of the pictures goes. Throws CommandLineError where they cannot all go there.
+std::vector<fs::path> series_outputs(const Request& request) {
+    std::map<fs::path, std::string> inputs_by_output;
+    std::vector<fs::path> outputs;
     for (const std::string& input : request.inputs()) {
         if (input == "-")
             throw CommandLineError(
@@ -348,7 +344,7 @@ void write_series(const Request& request, const Format& format, const Console& c
         // png16 and the like are .png.
         extension.erase(std::min(extension.find_first_of("0123456789-"), extension.size()));
         output += "." + extension;
-        if (const auto [other, is_new] = outputs.emplace(output, input); !is_new)
+        if (const auto [other, is_new] = inputs_by_output.emplace(output, input); !is_new)
             throw CommandLineError(fmt::format(
                 "'{}' and '{}' would both become '{}'; convert one of them alone",
                 other->second,
@@ -357,16 +353,33 @@ void write_series(const Request& request, const Format& format, const Console& c
         if (fs::exists(output) && fs::equivalent(output, input))
             throw CommandLineError(
                 fmt::format("'{}' would be written over itself; choose another folder", input));
+        outputs.push_back(std::move(output));
     }
+    return outputs;
+}
+
+/// Each picture is read once. They appear together: none does where one cannot be read or written.
+void write_series(const Request& request, const Format& format, const Console& console) {
+    const std::vector<fs::path> outputs = series_outputs(request);
+    std::vector<PictureSource> sources;
     std::optional<Palette> palette;
-    if (request.palette_for_all)
-        palette = chosen_palette(request, pointers(sources_of(request)));
-    else
-        read_all_once(request);
-    for (const auto& [output, input] : outputs) {
-        PictureSource source(input, request.crop, request.exposure);
-        write_one(request, format, source, output, palette ? &*palette : nullptr, console);
+    if (request.palette_for_all) {
+        sources = sources_of(request);
+        palette = chosen_palette(request, pointers(sources));
     }
+    std::deque<OutputFile> files;
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
+        OutputFile& file = files.emplace_back(outputs[i]);
+        if (palette) {
+            write_one(request, format, sources[i], file, &*palette, console);
+        } else {
+            PictureSource source(request.inputs()[i], request.crop, request.exposure);
+            write_one(request, format, source, file, nullptr, console);
+        }
+        file.finish();
+    }
+    for (OutputFile& file : files)
+        file.commit();
 }
 
 void convert(const Request& request, const Console& console) {
@@ -387,7 +400,9 @@ void convert(const Request& request, const Console& console) {
         write_animation(request, console);
     } else {
         PictureSource source(request.inputs()[0], request.crop, request.exposure);
-        write_one(request, format, source, request.output(), nullptr, console);
+        OutputFile file(request.output());
+        write_one(request, format, source, file, nullptr, console);
+        file.commit();
     }
 }
 

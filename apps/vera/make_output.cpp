@@ -8,7 +8,9 @@
 #include <filesystem>
 #include <memory>
 
+#include "interrupt.h"
 #include "messages.h"
+#include "progress_display.h"
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
@@ -42,7 +44,12 @@ void write_made_scene(const Scene& scene, const MakeOutput& output, const Consol
     std::unique_ptr<OutputFile> control;
     if (with_control)
         control = std::make_unique<OutputFile>(control_path);
-    write_vera_scene(scene, [&](std::string_view text) { file.write(text); });
+    {
+        const CancellableWork work;
+        ProgressDisplay display(console, "write");
+        const auto write = [&](std::string_view text) { file.write(text); };
+        write_vera_scene(scene, write, display.callback(), &console.cancel);
+    }
     file.commit();
     if (!with_control)
         return;

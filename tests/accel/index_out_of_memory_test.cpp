@@ -5,119 +5,10 @@
 #include "vera/accel/sphere_index.h"
 #include "vera/base/parallel.h"
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
+#include "base/counted_memory.h"
 #include "sample_mesh.h"
 #include "sample_spheres.h"
 #include <gtest/gtest.h>
-
-namespace {
-
-constexpr long no_end = -1;
-
-/// How many more times memory is given; without end unless a test says otherwise.
-std::atomic<long> times_left = no_end;
-/// Blocks of memory that were given and not given back.
-std::atomic<long> blocks = 0;
-
-bool may_be_given() {
-    long left = times_left.load();
-    while (left > 0 && !times_left.compare_exchange_weak(left, left - 1)) {
-    }
-    return left != 0;
-}
-
-/// Nothing where there is none.
-void* block_of(std::size_t size, std::size_t alignment) noexcept {
-    // aligned_alloc wants whole multiples, and there are no blocks of no bytes.
-    const std::size_t whole = (size / alignment + 1) * alignment;
-    void* const block = may_be_given() ? std::aligned_alloc(alignment, whole) : nullptr;
-    blocks += block != nullptr ? 1 : 0;
-    return block;
-}
-
-void* block_or_throw(std::size_t size, std::size_t alignment) {
-    void* const block = block_of(size, alignment);
-    if (block == nullptr)
-        throw std::bad_alloc();
-    return block;
-}
-
-void give_back(void* block) noexcept {
-    blocks -= block != nullptr ? 1 : 0;
-    std::free(block); // NOLINT
-}
-
-constexpr std::size_t usual_alignment = __STDCPP_DEFAULT_NEW_ALIGNMENT__;
-
-} // namespace
-
-// All forms that are used: those that are left out may not call these, under AddressSanitizer.
-void* operator new(std::size_t size) {
-    return block_or_throw(size, usual_alignment);
-}
-
-void* operator new[](std::size_t size) {
-    return block_or_throw(size, usual_alignment);
-}
-
-void* operator new(std::size_t size, std::align_val_t alignment) {
-    return block_or_throw(size, static_cast<std::size_t>(alignment));
-}
-
-void* operator new[](std::size_t size, std::align_val_t alignment) {
-    return block_or_throw(size, static_cast<std::size_t>(alignment));
-}
-
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-    return block_of(size, usual_alignment);
-}
-
-void* operator new[](std::size_t size, const std::nothrow_t&) noexcept {
-    return block_of(size, usual_alignment);
-}
-
-void operator delete(void* block) noexcept {
-    give_back(block);
-}
-
-void operator delete[](void* block) noexcept {
-    give_back(block);
-}
-
-void operator delete(void* block, std::size_t) noexcept {
-    give_back(block);
-}
-
-void operator delete[](void* block, std::size_t) noexcept {
-    give_back(block);
-}
-
-void operator delete(void* block, std::align_val_t) noexcept {
-    give_back(block);
-}
-
-void operator delete[](void* block, std::align_val_t) noexcept {
-    give_back(block);
-}
-
-void operator delete(void* block, std::size_t, std::align_val_t) noexcept {
-    give_back(block);
-}
-
-void operator delete[](void* block, std::size_t, std::align_val_t) noexcept {
-    give_back(block);
-}
-
-void operator delete(void* block, const std::nothrow_t&) noexcept {
-    give_back(block);
-}
-
-void operator delete[](void* block, const std::nothrow_t&) noexcept {
-    give_back(block);
-}
 
 namespace vera {
 namespace {
@@ -127,30 +18,17 @@ using testing::random_spheres;
 using testing::SampleMesh;
 using testing::SampleSpheres;
 
-/// Lets memory run out at the first block, and then each time so many blocks later, while make()
-/// makes an index.
+/// Memory runs out each time so many blocks later.
 template <typename Make>
-void expect_nothing_left_behind(std::size_t threads, long step, const Make& make) {
+void expect_nothing_left_behind(std::size_t threads, std::size_t step, const Make& make) {
     const ThreadLimit limit(threads);
-    make(); // what is made once in a process is made
-    const long before = blocks;
-    long given = 0;
-    for (bool made = false; !made; given += step) {
-        times_left = given;
-        try {
-            make();
-            made = true;
-        } catch (const std::bad_alloc&) { // NOLINT(bugprone-empty-catch)
-        }
-        times_left = no_end;
-        ASSERT_EQ(blocks, before) << "after " << given << " blocks";
-    }
-    EXPECT_GT(given, 5);
+    const auto later = [&](std::size_t given) { return given + step; };
+    EXPECT_GT(testing::expect_nothing_left_behind(make, later), 5U);
 }
 
 /// So many triangles.
 void expect_nothing_left_of_mesh(
-    std::size_t triangles, MeshIndexQuality quality, std::size_t threads, long step) {
+    std::size_t triangles, MeshIndexQuality quality, std::size_t threads, std::size_t step) {
     const SampleMesh mesh = random_mesh(1, triangles);
     expect_nothing_left_behind(
         threads, step, [&] { const MeshIndex index(mesh.spans(), quality); });

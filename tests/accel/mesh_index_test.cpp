@@ -302,6 +302,29 @@ TEST(MeshIndex, LeavesOutTrianglesWithCornersThatAreNowhere) {
     EXPECT_FALSE(none.meets_any({.origin = {-1, 0.25F, 0}, .direction = {1, 0, 0}}));
 }
 
+TEST(MeshIndex, IsNotSlowedDownByWhatItLeavesOut) {
+    constexpr float huge = std::numeric_limits<float>::max();
+    constexpr float tiny = std::numeric_limits<float>::denorm_min();
+    for (const float factor : {1.0F, 0x1p60F}) {
+        SampleMesh mesh = scaled_and_shifted(rough_sphere(3, 1), factor, 0);
+        const std::vector<MeshRay> rays = random_mesh_rays(2, mesh, 200);
+        const auto counted = [&] {
+            MeshQueryCounts counts;
+            std::vector<MeshHit> hits(rays.size());
+            MeshIndex(mesh.spans()).nearest_hits(rays, hits, &counts);
+            return counts;
+        };
+        const MeshQueryCounts before = counted();
+        // Vertices of no triangle, and one of a triangle that is left out.
+        mesh.vertices.insert(mesh.vertices.end(), {{huge, 0, 0}, {0, -huge, tiny}});
+        mesh.add_triangle({huge, huge, huge}, {0, 1, tiny}, {infinity, 0, 0});
+        const MeshQueryCounts after = counted();
+        EXPECT_EQ(after.nodes, before.nodes) << factor;
+        EXPECT_EQ(after.triangles, before.triangles) << factor;
+        EXPECT_GT(before.triangles, 0U) << factor;
+    }
+}
+
 TEST(MeshIndex, RefusesATriangleOfAVertexThatThereIsNot) {
     SampleMesh mesh = sphere(3);
     const std::size_t vertices = mesh.vertices.size();

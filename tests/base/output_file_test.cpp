@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
+#include <deque>
 #include <fstream>
 #include <functional>
 #include <iterator>
@@ -11,6 +12,8 @@
 #include <thread>
 #include <vector>
 
+#include "base/scratch_folder.h"
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/mount.h>
@@ -81,13 +84,7 @@ int error_code(const std::function<void()>& work, const std::string& text) {
 /// An empty folder for a test, removed at its end.
 class OutputFileTest : public testing::Test {
 protected:
-    OutputFileTest() {
-        std::string name = (fs::temp_directory_path() / "vera-output-XXXXXX").native();
-        folder = mkdtemp(name.data());
-        target = folder / "picture.png";
-    }
-
-    ~OutputFileTest() override { fs::remove_all(folder); }
+    OutputFileTest() { target = folder / "picture.png"; }
 
     /// The message with which opening a file at the path fails.
     static std::string message(const fs::path& path) {
@@ -99,7 +96,8 @@ protected:
         return "";
     }
 
-    fs::path folder;
+    ScratchFolder scratch;
+    fs::path folder = scratch.path();
     fs::path target;
 };
 
@@ -124,6 +122,45 @@ TEST_F(OutputFileTest, LeavesAllAsItWasWhenItIsNotCommitted) {
     }
     EXPECT_EQ(content(target), "old");
     EXPECT_THAT(names_in(folder), ElementsAre("picture.png"));
+}
+
+std::size_t open_files() {
+    return names_in("/proc/self/fd").size();
+}
+
+TEST_F(OutputFileTest, WaitsForItsCommitClosedAndInAFolderThatIsOpenOnce) {
+    put(folder / "a0", "old");
+    const std::size_t before = open_files();
+    {
+        std::deque<OutputFile> files;
+        for (int i = 0; i < 20; ++i) {
+            OutputFile& file = files.emplace_back(folder / fmt::format("a{}", i));
+            file.write(std::to_string(i));
+            file.finish();
+        }
+        EXPECT_EQ(open_files(), before + 1);
+        EXPECT_EQ(content(folder / "a0"), "old");
+        for (int i = 0; i < 10; ++i)
+            files[static_cast<std::size_t>(i)].commit();
+    }
+    EXPECT_EQ(open_files(), before);
+    EXPECT_EQ(names_in(folder).size(), 10U);
+    for (int i = 0; i < 10; ++i)
+        EXPECT_EQ(content(folder / fmt::format("a{}", i)), std::to_string(i));
+}
+
+TEST_F(OutputFileTest, WaitsInItsOwnFolder) {
+    fs::create_directory(folder / "x");
+    fs::create_directory(folder / "y");
+    OutputFile in_x(folder / "x/a");
+    OutputFile in_y(folder / "y/a");
+    OutputFile in_x_again(folder / "y/../x/b");
+    for (OutputFile* file : {&in_x, &in_y, &in_x_again})
+        file->finish();
+    for (OutputFile* file : {&in_x_again, &in_y, &in_x})
+        file->commit();
+    EXPECT_THAT(names_in(folder / "x"), ElementsAre("a", "b"));
+    EXPECT_THAT(names_in(folder / "y"), ElementsAre("a"));
 }
 
 TEST_F(OutputFileTest, HoldsEveryByteOfPiecesOfAllSizes) {

@@ -192,9 +192,44 @@ TEST_F(ConvertCommand, RefusesWhatMakesNoSense) {
     EXPECT_EQ(run_vera(folder, "convert none.png b.png").exit_code, 3);
     const ProgramRun endless = run_vera(folder, "convert a.png b.png --palette /dev/zero");
     EXPECT_EQ(endless.exit_code, 1);
-    EXPECT_THAT(endless.err, HasSubstr("this is no palette: it has more than a million bytes"));
+    EXPECT_THAT(endless.err, HasSubstr("more than 1 MiB came from this pipe or device"));
+    folder.write("long.txt", std::string((1U << 20U) + 1, '\n'));
+    const ProgramRun longest = run_vera(folder, "convert a.png b.png --palette long.txt");
+    EXPECT_EQ(longest.exit_code, 1);
+    EXPECT_THAT(longest.err, HasSubstr("this is no palette: it has more than a million bytes"));
     folder.write("broken.png", "no picture");
     EXPECT_EQ(run_vera(folder, "convert broken.png b.png").exit_code, 1);
+}
+
+TEST_F(ConvertCommand, ReadsEachOfSeveralPicturesOnce) {
+    std::filesystem::create_directory(folder.path() / "out");
+    for (const char* options : {"", "--colors 8", "--colors 8 --palette-for-all"}) {
+        // A pipe has nothing to read again: its second reader would wait for ever.
+        const ProgramRun run = run_vera(
+            folder,
+            std::string("convert pipe.png a.png out --format png ") + options,
+            "rm -f pipe.png; mkfifo pipe.png; cat a.png >pipe.png & timeout 60");
+        EXPECT_EQ(run.exit_code, 0) << options << '\n' << run.err;
+        EXPECT_EQ(read("out/pipe.png").samples, read("out/a.png").samples) << options;
+    }
+}
+
+TEST_F(ConvertCommand, WritesMorePicturesThanAProcessMayHaveFiles) {
+    std::filesystem::create_directory(folder.path() / "out");
+    constexpr int pictures = 60;
+    std::string names;
+    for (int i = 0; i < pictures; ++i) {
+        const std::string name = std::to_string(i) + ".ppm";
+        folder.write(name, "P6\n1 1\n255\nabc");
+        names += name + " ";
+    }
+    const ProgramRun run =
+        run_vera(folder, "convert " + names + "out --format png", "ulimit -n 40;");
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    std::size_t written = 0;
+    for (const auto& file : std::filesystem::directory_iterator(folder.path() / "out"))
+        written += file.path().extension() == ".png" ? 1 : 0;
+    EXPECT_EQ(written, pictures);
 }
 
 TEST_F(ConvertCommand, WritesNoneOfSeveralPicturesWhereOneCannotBeRead) {

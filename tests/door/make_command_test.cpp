@@ -33,6 +33,14 @@ TEST(MakeCommand, WritesBareModelsAndToStandardOutput) {
     EXPECT_EQ(folder.file_count(), 0U);
 }
 
+TEST(MakeCommand, TellsHowMuchIsWritten) {
+    const ScratchFolder folder;
+    const ProgramRun run = run_vera(folder, "make tetra --size 5 -o a.vera --progress json -q");
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_TRUE(holds(run.err, R"("stage": "write", "done": 1.0000)")) << run.err;
+    EXPECT_EQ(run_vera(folder, "make tetra --size 5 -o a.vera -q").err, "");
+}
+
 TEST(MakeCommand, ListsAndHelps) {
     const ScratchFolder folder;
     const ProgramRun list = run_vera(folder, "make --list");

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <system_error>
 #include <vector>
 
+#include "base/scratch_folder.h"
 #include "drawing/sample_drawing.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,23 +11,19 @@
 namespace vera {
 namespace {
 
-namespace fs = std::filesystem;
 using testing::HasSubstr;
 
 TEST(WriteDrawing, WritesTheSameBytesTwice) {
-    std::string name = (fs::temp_directory_path() / "vera-drawing-XXXXXX").native();
-    const fs::path folder = mkdtemp(name.data());
+    const ScratchFolder folder;
     const std::pair<DrawingFormat, std::string> expected[] = {
         {DrawingFormat::svg, written(write_svg, sample_drawing())},
         {DrawingFormat::pdf, written(write_pdf, sample_drawing())},
         {DrawingFormat::eps, written(write_eps, sample_drawing())},
         {DrawingFormat::dxf, written(write_dxf, sample_drawing())}};
     for (const auto& [format, bytes] : expected) {
-        write_drawing(sample_drawing(), folder / "a", format);
-        std::ifstream file(folder / "a", std::ios::binary);
-        EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), bytes);
+        write_drawing(sample_drawing(), folder.path() / "a", format);
+        EXPECT_EQ(folder.read("a"), bytes);
     }
-    fs::remove_all(folder);
 }
 
 /// Thousands of squares and lines, so that all loops look at the flag several times.

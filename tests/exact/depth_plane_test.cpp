@@ -5,24 +5,23 @@
 #include <cmath>
 #include <random>
 
+#include "exact/few_points.h"
 #include <gtest/gtest.h>
 
 namespace vera {
 namespace {
 
-ScreenVertex few(std::mt19937_64& random) {
-    constexpr std::array<std::int32_t, 6> numbers = {
-        0, 1, 100, screen_size / 2, screen_size - 1, screen_size};
+ScreenVertex few_vertex(std::mt19937_64& random) {
     constexpr std::array<std::int64_t, 6> depths = {
         0, 1, 12345, depth_size / 2, depth_size - 1, depth_size};
-    return {
-        {numbers[random() % numbers.size()], numbers[random() % numbers.size()]},
-        depths[random() % depths.size()]};
+    const ScreenPoint point = testing::few_point(random);
+    return {point, depths[random() % depths.size()]};
 }
 
 std::array<ScreenVertex, 3> few_corners(std::mt19937_64& random) {
     while (true) {
-        std::array<ScreenVertex, 3> corners = {few(random), few(random), few(random)};
+        std::array<ScreenVertex, 3> corners = {
+            few_vertex(random), few_vertex(random), few_vertex(random)};
         const std::int64_t area = orientation(corners[0].point, corners[1].point, corners[2].point);
         if (area < 0)
             std::swap(corners[0], corners[1]);

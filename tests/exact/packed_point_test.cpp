@@ -6,28 +6,21 @@
 #include <random>
 #include <vector>
 
+#include "exact/few_points.h"
 #include <gtest/gtest.h>
 
 namespace vera {
 namespace {
 
-/// Few coordinates, the least and the largest among them, so that many points are equal and some
-/// denominators as long as any.
+/// Many are equal, and some denominators are as long as any.
 std::vector<RationalPoint> crossings(std::size_t rounds) {
-    constexpr std::array<std::int32_t, 6> numbers = {
-        0, 1, 3, screen_size / 2, screen_size - 1, screen_size};
     std::mt19937_64 random(1);
-    const auto any = [&] {
-        const std::int32_t x = numbers[random() % numbers.size()];
-        const std::int32_t y = numbers[random() % numbers.size()];
-        return ScreenPoint{x, y};
-    };
     std::vector<RationalPoint> points = {{}, {{screen_size, screen_size}}};
     for (std::size_t i = 0; i < rounds; ++i) {
-        const ScreenPoint a = any();
-        const ScreenPoint b = any();
-        const ScreenPoint p = any();
-        const ScreenPoint q = any();
+        const ScreenPoint a = testing::few_point(random);
+        const ScreenPoint b = testing::few_point(random);
+        const ScreenPoint p = testing::few_point(random);
+        const ScreenPoint q = testing::few_point(random);
         if (cross(step(a, b), step(p, q)) == 0)
             continue;
         const SegmentPlace place = crossing_place(a, b, p, q);
@@ -51,8 +44,27 @@ TEST(PackedPoint, IsUnpackedAsItWas) {
     EXPECT_EQ(RationalPoint(PackedPoint{}), RationalPoint{});
 }
 
+TEST(PackedPoint, HasRoomForThePictureAndTakesNothingThatItHasNoRoomFor) {
+    // More than any point of the picture has: a fraction of the longest denominator beside the
+    // largest coordinates.
+    constexpr std::int64_t longest = (std::int64_t{1} << 48) - 1;
+    constexpr std::int32_t largest = (1 << 24) - 1;
+    const RationalPoint last = {{largest, largest}, longest - 1, longest - 1, longest};
+    EXPECT_EQ(RationalPoint(PackedPoint(last)), last);
+    const std::array wrong = {
+        RationalPoint{{-1, 0}},
+        RationalPoint{{0, -1}},
+        RationalPoint{{largest + 1, 0}},
+        RationalPoint{{0, largest + 1}},
+        RationalPoint{{0, 0}, -1, 0, 1},
+        RationalPoint{{0, 0}, 0, -1, 1},
+        RationalPoint{{0, 0}, 0, 0, longest + 1}};
+    for (const RationalPoint& point : wrong)
+        EXPECT_DEATH(PackedPoint{point}, "point.whole.x");
+}
+
 TEST(PackedPoint, EqualsAndHashesAsThePointsDo) {
-    const std::vector<RationalPoint> points = crossings(600);
+    const std::vector<RationalPoint> points = crossings(1200);
     std::size_t equal = 0;
     for (std::size_t i = 0; i < points.size(); ++i)
         for (std::size_t j = 0; j < i; ++j) {

@@ -5,29 +5,22 @@
 #include <cmath>
 #include <random>
 
+#include "exact/few_points.h"
 #include <gtest/gtest.h>
 
 namespace vera {
 namespace {
 
-/// Corners of the screen, places beside them, and points of few different coordinates.
-ScreenPoint few(std::mt19937_64& random) {
-    const auto coordinate = [&] {
-        constexpr std::array<std::int32_t, 8> numbers = {
-            0, 1, 2, 3, screen_size / 2, screen_size - 2, screen_size - 1, screen_size};
-        return numbers[random() % numbers.size()];
-    };
-    return {coordinate(), coordinate()};
-}
+using testing::few_point;
 
 TEST(ScreenPoint, CrossingsLieOnBothSegmentsToTheLastBit) {
     std::mt19937_64 random(1);
     int crossings = 0;
     for (int i = 0; i < 200'000; ++i) {
-        const ScreenPoint a = few(random);
-        const ScreenPoint b = few(random);
-        const ScreenPoint p = few(random);
-        const ScreenPoint q = few(random);
+        const ScreenPoint a = few_point(random);
+        const ScreenPoint b = few_point(random);
+        const ScreenPoint p = few_point(random);
+        const ScreenPoint q = few_point(random);
         const std::int64_t side_a = orientation(p, q, a);
         const std::int64_t side_b = orientation(p, q, b);
         const std::int64_t side_p = orientation(a, b, p);
@@ -57,8 +50,8 @@ TEST(ScreenPoint, CrossingsLieOnBothSegmentsToTheLastBit) {
 TEST(ScreenPoint, PlacesAreInTheOrderOfTheirPoints) {
     std::mt19937_64 random(2);
     for (int i = 0; i < 100'000; ++i) {
-        const ScreenPoint a = few(random);
-        const ScreenPoint b = few(random);
+        const ScreenPoint a = few_point(random);
+        const ScreenPoint b = few_point(random);
         if (a == b)
             continue;
         // Points of the line that are crossings of the grid.

@@ -30,7 +30,7 @@ Digits product_by_hand(UInt128 a, UInt128 b) {
 }
 
 /// Numbers of all lengths, many of them with long runs of ones or zeros.
-UInt128 few(std::mt19937_64& random) {
+UInt128 number_of_any_length(std::mt19937_64& random) {
     UInt128 value = 0;
     for (int i = 0; i < 4; ++i) {
         const std::uint64_t part =
@@ -43,8 +43,8 @@ UInt128 few(std::mt19937_64& random) {
 TEST(WideInteger, ProductsAreThoseByHand) {
     std::mt19937_64 random(1);
     for (int i = 0; i < 100'000; ++i) {
-        const UInt128 a = few(random);
-        const UInt128 b = few(random);
+        const UInt128 a = number_of_any_length(random);
+        const UInt128 b = number_of_any_length(random);
         const UInt256 found = product(a, b);
         const Digits expected = product_by_hand(a, b);
         for (std::size_t digit = 0; digit < 16; ++digit) {

@@ -3,6 +3,7 @@
 // wrong, in time and in little memory.
 #include "vera/formats/control_file.h"
 #include "vera/formats/read_scene.h"
+#include "vera/formats/source_text.h"
 
 #include <cstdlib>
 #include <filesystem>
@@ -121,6 +122,15 @@ TEST(StrangeFiles, OfZerosAreToldByEveryReader) {
     for (const Format& format : formats())
         EXPECT_FALSE(errors(format, format.beginning + std::string(1'000'000, '\0')).empty())
             << format.extension;
+}
+
+TEST(StrangeFiles, WithoutAnEndAreRefused) {
+    try {
+        const SourceText text("/dev/zero", 100'000);
+        FAIL() << "it was read";
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("/dev/zero: more than 100000 bytes came"));
+    }
 }
 
 TEST(StrangeFiles, WithANumberOfTenThousandDigitsAreRead) {
@@ -292,6 +302,19 @@ TEST_F(LargeFiles, OfZerosAreToldByEveryReader) {
         const ScratchFile file(format.extension);
         std::filesystem::resize_file(file.hold(format.beginning).path(), size); // with a hole
         EXPECT_THROW(format.read(file.path()), InputError) << format.extension;
+    }
+}
+
+TEST_F(LargeFiles, WithoutAnEndAreRefusedByEveryReader) {
+    for (const Format& format : formats()) {
+        const ScratchFile file(format.extension);
+        std::filesystem::create_symlink("/dev/zero", file.path());
+        try {
+            format.read(file.path());
+            FAIL() << format.extension << " was read";
+        } catch (const InputError& error) {
+            EXPECT_THAT(error.what(), HasSubstr("more than 1024 MiB came")) << format.extension;
+        }
     }
 }
 

@@ -11,9 +11,9 @@
 #include <iterator>
 #include <random>
 
+#include "base/scratch_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 #include <zlib.h>
 
 namespace vera {
@@ -23,13 +23,6 @@ namespace fs = std::filesystem;
 
 class CompressedRasterFile : public testing::Test {
 protected:
-    CompressedRasterFile() {
-        std::string name = (fs::temp_directory_path() / "vera-raster-XXXXXX").native();
-        folder = mkdtemp(name.data());
-    }
-
-    ~CompressedRasterFile() override { fs::remove_all(folder); }
-
     std::vector<std::byte> written(
         const Image& image,
         const RasterWriteSettings& settings = {},
@@ -44,7 +37,8 @@ protected:
         return {bytes.begin(), bytes.end()};
     }
 
-    fs::path folder;
+    ScratchFolder scratch;
+    fs::path folder = scratch.path();
 };
 
 /// Shaded balls over a floor: what pictures of scenes have, in little.

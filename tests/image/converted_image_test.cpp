@@ -3,10 +3,8 @@
 #include "vera/image/converted_image.h"
 #include "vera/image/image_file.h"
 
-#include <filesystem>
-
+#include "base/scratch_folder.h"
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 namespace vera {
 namespace {
@@ -50,8 +48,8 @@ TEST(ConvertedImage, PutsTheFactorOnTheLight) {
 }
 
 TEST(PictureRows, AreThoseOfThePictureAndOfItsRaster) {
-    std::string name = (std::filesystem::temp_directory_path() / "vera-rows-XXXXXX").native();
-    close(mkstemp(name.data()));
+    const ScratchFolder folder;
+    const std::string name = folder.path() / "a";
     for (const SampleType type : {SampleType::integer8, SampleType::integer16}) {
         const Image image = converted_image(all_bytes(), type);
         {
@@ -73,7 +71,6 @@ TEST(PictureRows, AreThoseOfThePictureAndOfItsRaster) {
             }
         }
     }
-    std::filesystem::remove(name);
 }
 
 } // namespace

@@ -12,6 +12,7 @@
 #include <random>
 #include <system_error>
 
+#include "base/scratch_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -42,14 +43,8 @@ constexpr ImageFileFormat all_formats[] = {
 /// An empty folder for a test, removed at its end.
 class ImageFile : public testing::Test {
 protected:
-    ImageFile() {
-        std::string name = (fs::temp_directory_path() / "vera-image-XXXXXX").native();
-        folder = mkdtemp(name.data());
-    }
-
-    ~ImageFile() override { fs::remove_all(folder); }
-
-    fs::path folder;
+    ScratchFolder scratch;
+    fs::path folder = scratch.path();
 };
 
 std::string content(const fs::path& path) {
@@ -350,6 +345,15 @@ TEST(DecodedImage, NamesWhatItCannotRead) {
     EXPECT_THAT(problem("P6 1 1 7\n\x08\x01\x01"), HasSubstr("a sample is 8, more than its white"));
     EXPECT_THAT(problem("PF 1 1 x\n"), HasSubstr("expected its scale"));
     EXPECT_THAT(problem("P6 2147483647 2147483647 255\nabc"), HasSubstr("it ends early"));
+}
+
+TEST(ImageBytes, OfADeviceWithoutAnEndAreRefused) {
+    try {
+        file_bytes("/dev/zero", 100'000);
+        FAIL() << "it was read";
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("/dev/zero: more than 100000 bytes came"));
+    }
 }
 
 TEST_F(ImageFile, MayBeLargeAndOfOneColor) {

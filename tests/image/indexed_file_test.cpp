@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "base/scratch_folder.h"
 #include <gif_lib.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 namespace vera {
 namespace {
@@ -17,14 +17,8 @@ namespace fs = std::filesystem;
 
 class IndexedFile : public testing::Test {
 protected:
-    IndexedFile() {
-        std::string name = (fs::temp_directory_path() / "vera-indexed-XXXXXX").native();
-        folder = mkdtemp(name.data());
-    }
-
-    ~IndexedFile() override { fs::remove_all(folder); }
-
-    fs::path folder;
+    ScratchFolder scratch;
+    fs::path folder = scratch.path();
 };
 
 std::uint8_t number_at(std::size_t x, std::size_t y, std::size_t colors, std::size_t shift) {

@@ -11,8 +11,8 @@
 #include <iterator>
 #include <limits>
 
+#include "base/scratch_folder.h"
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 namespace vera {
 namespace {
@@ -22,19 +22,13 @@ namespace fs = std::filesystem;
 /// An empty folder for a test, removed at its end.
 class LayersFile : public ::testing::Test {
 protected:
-    LayersFile() {
-        std::string name = (fs::temp_directory_path() / "vera-layers-XXXXXX").native();
-        folder = mkdtemp(name.data());
-    }
-
-    ~LayersFile() override { fs::remove_all(folder); }
-
     std::string content(const char* name) const {
         std::ifstream file(folder / name, std::ios::binary);
         return {std::istreambuf_iterator<char>(file), {}};
     }
 
-    fs::path folder;
+    ScratchFolder scratch;
+    fs::path folder = scratch.path();
 };
 
 constexpr std::size_t width = 5;

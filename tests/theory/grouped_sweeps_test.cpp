@@ -17,6 +17,7 @@ namespace vera {
 namespace {
 
 using Random = std::mt19937_64;
+using testing::Crowd;
 using testing::Rectangles;
 using testing::SlopedRays;
 
@@ -83,23 +84,8 @@ TEST(GroupedSweeps, AreTheSameForAnyNumberOfThreads) {
     }
 }
 
-/// As many rays as rectangles, which are as far apart as they are wide.
-struct Crowd {
-    Rectangles rectangles;
-    SlopedRays rays;
-};
-
-Crowd crowd(
-    SlopedRays (*rays)(std::size_t, std::int32_t, std::int32_t, Random&),
-    std::size_t count,
-    Random& random) {
-    constexpr std::int32_t reach = 20000;
-    const double side = 2 * reach / std::sqrt(static_cast<double>(count));
-    Crowd made;
-    made.rectangles =
-        testing::rectangles_within(count, reach, static_cast<std::int32_t>(side), random);
-    made.rays = rays(count, reach, 40, random);
-    return made;
+Crowd crowd(decltype(testing::RayFamily::rays) rays, std::size_t count, Random& random) {
+    return testing::crowd_of(count, rays, 40, random);
 }
 
 std::vector<double> events_by_level(const Crowd& crowd) {

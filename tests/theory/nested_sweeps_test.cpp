@@ -14,6 +14,7 @@ namespace vera {
 namespace {
 
 using Random = std::mt19937_64;
+using testing::Crowd;
 using testing::Rectangles;
 using testing::SlopedRays;
 
@@ -42,19 +43,8 @@ TEST(NestedSweeps, FindTheRectanglesThatLookingAtEachFindsAtEveryLevel) {
     EXPECT_GT(asked, 40000U);
 }
 
-struct Crowd {
-    Rectangles rectangles;
-    SlopedRays rays;
-};
-
 Crowd crowd(std::size_t count, Random& random) {
-    constexpr std::int32_t reach = 20000;
-    const double side = 2 * reach / std::sqrt(static_cast<double>(count));
-    Crowd made;
-    made.rectangles =
-        testing::rectangles_within(count, reach, static_cast<std::int32_t>(side), random);
-    made.rays = testing::sloped_rays_within(count, reach, 3, random);
-    return made;
+    return testing::crowd_of(count, testing::sloped_rays_within, 3, random);
 }
 
 double events(std::size_t level, const Crowd& crowd) {

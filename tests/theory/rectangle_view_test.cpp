@@ -309,6 +309,24 @@ TEST(RectangleView, IsRefusedWhereMemoryWouldNotSuffice) {
     }
 }
 
+/// A rectangle that crosses many bars, whose borders have grown little by little, doubles them.
+TEST(RectangleView, IsRefusedWhereOneRectangleTakesMoreMemoryThanThereIs) {
+    constexpr std::int32_t bars = 8192; // progress is told before the turn of each 1024th
+    Rectangles rectangles;
+    for (std::int32_t i = 0; i < bars; ++i)
+        rectangles.push_back({0, 2 * i, 2 * i + 1, 0, 3});
+    const std::size_t without = rectangle_view(rectangles).corners.size();
+    EXPECT_EQ(without, 4U * bars);
+    rectangles.push_back({1, 0, 2 * bars, 1, 2});
+    std::optional<MemoryLimit> limit;
+    const auto limit_at_last = [&](double done) {
+        if (done > (bars - 0.5) / (bars + 1))
+            limit.emplace(1);
+    };
+    EXPECT_THROW(rectangle_view(rectangles, nullptr, limit_at_last), std::runtime_error);
+    EXPECT_TRUE(limit.has_value());
+}
+
 TEST(RectangleView, EndsWhenItIsCancelledAndTellsHowFarItIs) {
     const Rectangles rectangles = scattered_squares(1500, 1);
     double last = 0;

@@ -2,6 +2,7 @@
 #include "theory/rectangles.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace vera::testing {
 
@@ -137,6 +138,19 @@ const std::vector<RayFamily>& ray_families() {
         {"a raster", raster_of_rays},
         {"repeated", repeated_rays}};
     return families;
+}
+
+Crowd crowd_of(
+    std::size_t count,
+    decltype(RayFamily::rays) rays,
+    std::int32_t slope,
+    std::mt19937_64& random) {
+    constexpr std::int32_t reach = 20000;
+    const double side = 2 * reach / std::sqrt(static_cast<double>(count));
+    Crowd made;
+    made.rectangles = rectangles_within(count, reach, static_cast<std::int32_t>(side), random);
+    made.rays = rays(count, reach, slope, random);
+    return made;
 }
 
 } // namespace vera::testing

@@ -73,4 +73,13 @@ struct RayFamily {
 /// All of these.
 const std::vector<RayFamily>& ray_families();
 
+/// As many rays as rectangles, which are as far apart as they are wide.
+struct Crowd {
+    Rectangles rectangles;
+    SlopedRays rays;
+};
+
+Crowd crowd_of(
+    std::size_t count, decltype(RayFamily::rays) rays, std::int32_t slope, std::mt19937_64& random);
+
 } // namespace vera::testing

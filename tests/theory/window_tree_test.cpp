@@ -3,6 +3,7 @@
 #include "vera/theory/window_tree.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <iterator>
 #include <optional>
@@ -108,6 +109,24 @@ TEST(WindowTree, PassesByWhatIsInNoWindow) {
         EXPECT_LT(
             static_cast<double>(counts.steps() - before),
             4 * std::log2(static_cast<double>(places)) * (log_n + 2));
+    }
+}
+
+TEST(WindowTree, KnowsHowManyEntriesASegmentMayBecome) {
+    for (std::int32_t places = 1; places <= 33; ++places) {
+        std::size_t most = 0;
+        WindowCounts counts;
+        WindowTree tree(places, counts);
+        for (std::int32_t begin = 0; begin < places; ++begin)
+            for (std::int32_t end = begin + 1; end <= places; ++end) {
+                tree.insert({0, {begin, end}});
+                most = std::max(most, tree.entry_count());
+                tree.remove({0, {begin, end}});
+            }
+        EXPECT_LE(most, tree.most_entries_of_segment()) << places;
+        if (std::has_single_bit(static_cast<unsigned>(places))) {
+            EXPECT_EQ(most, tree.most_entries_of_segment()) << places;
+        }
     }
 }
 

@@ -12,147 +12,24 @@
 #include "vera/visible/projection.h"
 
 #include <algorithm>
-#include <atomic>
-#include <cstdlib>
-#include <new>
 #include <random>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "base/counted_memory.h"
 #include "base/memory_is_watched.h"
 #include "scene/make_scene.h"
 #include "visible/screen_scenes.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <malloc.h>
-
-namespace {
-
-constexpr long no_end = -1;
-
-/// How many more times memory is given; without end unless a test says otherwise.
-std::atomic<long> times_left = no_end;
-std::atomic<long> blocks = 0;
-std::atomic<long> bytes = 0;
-std::atomic<long> most_bytes = 0;
-
-bool may_be_given() {
-    long left = times_left.load();
-    while (left > 0 && !times_left.compare_exchange_weak(left, left - 1)) {
-    }
-    return left != 0;
-}
-
-void* block_or_throw(std::size_t size, std::size_t alignment) {
-    // aligned_alloc wants whole multiples, and there are no blocks of no bytes.
-    const std::size_t whole = (size / alignment + 1) * alignment;
-    void* const block = may_be_given() ? std::aligned_alloc(alignment, whole) : nullptr;
-    if (block == nullptr)
-        throw std::bad_alloc();
-    ++blocks;
-    const long now = bytes += static_cast<long>(malloc_usable_size(block));
-    long most = most_bytes;
-    while (now > most && !most_bytes.compare_exchange_weak(most, now)) {
-    }
-    return block;
-}
-
-void give_back(void* block) noexcept {
-    if (block == nullptr)
-        return;
-    --blocks;
-    bytes -= static_cast<long>(malloc_usable_size(block));
-    std::free(block); // NOLINT
-}
-
-constexpr std::size_t usual_alignment = __STDCPP_DEFAULT_NEW_ALIGNMENT__;
-
-} // namespace
-
-// All forms that are used: those that are left out may not call these, under AddressSanitizer.
-void* operator new(std::size_t size) {
-    return block_or_throw(size, usual_alignment);
-}
-
-void* operator new[](std::size_t size) {
-    return block_or_throw(size, usual_alignment);
-}
-
-void* operator new(std::size_t size, std::align_val_t alignment) {
-    return block_or_throw(size, static_cast<std::size_t>(alignment));
-}
-
-void* operator new[](std::size_t size, std::align_val_t alignment) {
-    return block_or_throw(size, static_cast<std::size_t>(alignment));
-}
-
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-    try {
-        return block_or_throw(size, usual_alignment);
-    } catch (const std::bad_alloc&) {
-        return nullptr;
-    }
-}
-
-void* operator new[](std::size_t size, const std::nothrow_t& tag) noexcept {
-    return operator new(size, tag);
-}
-
-void operator delete(void* block) noexcept {
-    give_back(block);
-}
-
-void operator delete[](void* block) noexcept {
-    give_back(block);
-}
-
-void operator delete(void* block, std::size_t) noexcept {
-    give_back(block);
-}
-
-void operator delete[](void* block, std::size_t) noexcept {
-    give_back(block);
-}
-
-void operator delete(void* block, std::align_val_t) noexcept {
-    give_back(block);
-}
-
-void operator delete[](void* block, std::align_val_t) noexcept {
-    give_back(block);
-}
-
-void operator delete(void* block, std::size_t, std::align_val_t) noexcept {
-    give_back(block);
-}
-
-void operator delete[](void* block, std::size_t, std::align_val_t) noexcept {
-    give_back(block);
-}
-
-void operator delete(void* block, const std::nothrow_t&) noexcept {
-    give_back(block);
-}
-
-void operator delete[](void* block, const std::nothrow_t&) noexcept {
-    give_back(block);
-}
 
 namespace vera {
 namespace {
 
 using ::testing::HasSubstr;
-
-/// The most bytes that there were at once beside those before, while the work ran.
-template <typename Work>
-double most_bytes_of(const Work& work) {
-    const long before = bytes;
-    most_bytes = before;
-    work();
-    return static_cast<double>(most_bytes - before);
-}
+using testing::most_bytes_of;
 
 struct Family {
     std::string name;
@@ -295,7 +172,7 @@ TEST(DrawingMemory, ADrawingTakesWhatIsForetold) {
         const Camera& camera = view.camera;
         const double deviation = DrawSettings().deviation / picture.width;
         // What there is when the forecast is made.
-        const long before = bytes;
+        const testing::MemoryWatch all_watch;
         Facets all;
         DrawnFaces faces;
         ScreenScene on_screen;
@@ -303,11 +180,11 @@ TEST(DrawingMemory, ADrawingTakesWhatIsForetold) {
         const double taken_before = most_bytes_of([&] {
             all = facets(scene, [&](Vec3) { return deviation; });
             faces = drawn_faces(scene, all, FaceUnit::plane, camera);
-            facets_there = static_cast<double>(bytes - before);
+            facets_there = static_cast<double>(all_watch.bytes());
             on_screen = screen_scene(all, CameraMap(camera), faces.of_facet);
             sort_by_place(on_screen);
         });
-        const auto all_there = static_cast<double>(bytes - before);
+        const auto all_there = static_cast<double>(all_watch.bytes());
         ScreenScene whole = on_screen;
         const VisiblePieces pieces = whole_pieces(whole).pieces;
         for (const DrawingStyle style :
@@ -451,21 +328,8 @@ TEST(DrawingMemory, WhereItRunsOutTheDrawingEndsAndLeavesNothing) {
             std::string text;
             write_svg(drawn.drawing, {}, text);
         };
-        draw(); // what is made once in a process is made
-        const long before = blocks;
-        bool is_drawn = false;
-        long given = 0;
-        for (; !is_drawn; given += 1 + given / 40) {
-            times_left = given;
-            try {
-                draw();
-                is_drawn = true;
-            } catch (const std::bad_alloc&) { // NOLINT(bugprone-empty-catch)
-            }
-            times_left = no_end;
-            ASSERT_EQ(blocks, before) << "memory for " << given << " blocks";
-        }
-        EXPECT_GT(given, 100);
+        const auto later = [](std::size_t given) { return given + 1 + given / 40; };
+        EXPECT_GT(testing::expect_nothing_left_behind(draw, later), 100U);
     }
 }
 

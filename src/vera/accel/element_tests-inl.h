@@ -29,7 +29,7 @@ namespace vera::detail::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 template <typename V>
-HWY_INLINE V dot3(const V (&a)[3], const V (&b)[3]) {
+HWY_INLINE V fused_dot3(const V (&a)[3], const V (&b)[3]) {
     return hn::MulAdd(a[2], b[2], hn::MulAdd(a[1], b[1], hn::Mul(a[0], b[0])));
 }
 
@@ -81,12 +81,12 @@ center_place(const TestedRays<D>& rays, const hn::Vec<D>* center) {
         hn::Sub(center[0], rays.origin[0]),
         hn::Sub(center[1], rays.origin[1]),
         hn::Sub(center[2], rays.origin[2])};
-    const V closest = dot3(to_center, rays.direction);
+    const V closest = fused_dot3(to_center, rays.direction);
     const V offset[3] = {
         hn::Sub(to_center[0], hn::Mul(closest, rays.direction[0])),
         hn::Sub(to_center[1], hn::Mul(closest, rays.direction[1])),
         hn::Sub(to_center[2], hn::Mul(closest, rays.direction[2]))};
-    return {{to_center[0], to_center[1], to_center[2]}, closest, dot3(offset, offset)};
+    return {{to_center[0], to_center[1], to_center[2]}, closest, fused_dot3(offset, offset)};
 }
 
 template <typename D>
@@ -130,7 +130,7 @@ meeting_ball(D d, const TestedRays<D>& rays, const hn::Vec<D>* center, hn::Vec<D
     const V t = hn::Max(zero, hn::Min(end, place.closest));
     const V to_t = hn::Sub(place.closest, t);
     const V to_end = hn::Sub(place.closest, end);
-    const V start_squared = dot3(place.to_center, place.to_center);
+    const V start_squared = fused_dot3(place.to_center, place.to_center);
     const V middle_squared = hn::MulAdd(to_t, to_t, place.distance_squared);
     const V end_squared = hn::MulAdd(to_end, to_end, place.distance_squared);
     const auto starts_outside = hn::Gt(start_squared, outer_squared);
@@ -217,10 +217,10 @@ plane_place(D, const TestedRays<D>& rays, const Face<hn::Vec<D>>& face) {
     V moment[3];
     cross3(to_corner, rays.direction, moment);
     return {
-        dot3(moment, face.f),
-        hn::Neg(dot3(moment, face.e)),
-        dot3(face.normal, rays.direction),
-        dot3(face.normal, to_corner),
+        fused_dot3(moment, face.f),
+        hn::Neg(fused_dot3(moment, face.e)),
+        fused_dot3(face.normal, rays.direction),
+        fused_dot3(face.normal, to_corner),
         face.largest,
         face.normal_error};
 }
@@ -332,14 +332,14 @@ HWY_INLINE AxisPlace<hn::Vec<D>> axis_place(const TestedRays<D>& rays, const hn:
     const V axis_direction[3] = {values[3], values[4], values[5]};
     V across[3];
     cross3(rays.direction, axis_direction, across);
-    const V rise = dot3(rays.direction, axis_direction);
-    const V height = dot3(to_center, axis_direction);
+    const V rise = fused_dot3(rays.direction, axis_direction);
+    const V height = fused_dot3(to_center, axis_direction);
     return {
-        dot3(across, across),
-        hn::Abs(dot3(to_center, across)),
+        fused_dot3(across, across),
+        hn::Abs(fused_dot3(to_center, across)),
         rise,
         height,
-        hn::Sub(dot3(to_center, rays.direction), hn::Mul(height, rise))};
+        hn::Sub(fused_dot3(to_center, rays.direction), hn::Mul(height, rise))};
 }
 
 template <typename D>
@@ -428,7 +428,7 @@ HWY_INLINE ConePlace<D> cone_place(D d, const TestedRays<D>& rays, const hn::Vec
         axis,
         per_square,
         hn::Mul(hn::MulAdd(p, q, axis.middle_by_square), per_square),
-        hn::Sqrt(dot3(breadth, breadth)),
+        hn::Sqrt(fused_dot3(breadth, breadth)),
         hn::MulAdd(size, hn::Set(d, 0x1p-17F), hn::Set(d, 4 * rays.double_slack)),
         hn::And(
             hn::Gt(axis.sine_squared, hn::Set(d, 0.01F)),

@@ -24,7 +24,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using LeafLanes = hn::CappedTag<float, most_in_leaf>;
 
 /// Numbers that decide: as many as one byte has mask bits.
-using Doubles = hn::CappedTag<double, 8>;
+using DecidingLanes = hn::CappedTag<double, 8>;
 
 template <typename V>
 struct Vector {

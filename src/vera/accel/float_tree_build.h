@@ -10,7 +10,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -19,17 +18,14 @@ namespace vera::detail {
 /// Ranges that the threads take.
 constexpr std::size_t float_tree_grain = 4096;
 
-/// The largest of the finite numbers in the rows of which is_asked(row) is true, without its sign.
-template <std::size_t Count, typename IsAsked>
-float largest_number(std::span<const std::array<float, Count>> rows, const IsAsked& is_asked) {
+/// The largest size_of(number) of so many elements, of which none is negative; 0 of none.
+template <typename SizeOf>
+float largest_size(std::size_t count, const SizeOf& size_of) {
     std::atomic<std::uint32_t> largest = 0; // of positive numbers, the bits have the same order
-    parallel_ranges(rows.size(), float_tree_grain, [&](std::size_t first, std::size_t last) {
+    parallel_ranges(count, float_tree_grain, [&](std::size_t first, std::size_t last) {
         float of_part = 0;
         for (std::size_t i = first; i < last; ++i)
-            if (is_asked(rows[i]))
-                for (const float number : rows[i])
-                    if (std::isfinite(number))
-                        of_part = std::max(of_part, std::abs(number));
+            of_part = std::max(of_part, size_of(i));
         const auto bits = std::bit_cast<std::uint32_t>(of_part);
         std::uint32_t before = largest.load();
         while (before < bits && !largest.compare_exchange_weak(before, bits)) {
@@ -38,34 +34,10 @@ float largest_number(std::span<const std::array<float, Count>> rows, const IsAsk
     return std::bit_cast<float>(largest.load());
 }
 
-/// Every number of those rows can be had back from what it becomes.
-template <std::size_t Count, typename IsAsked>
-bool scales_exactly(
-    std::span<const std::array<float, Count>> rows, const IsAsked& is_asked, int exponent) {
-    const FloatScale scale(exponent);
-    const FloatScale back(-exponent);
-    std::atomic<bool> exact = true;
-    parallel_ranges(rows.size(), float_tree_grain, [&](std::size_t first, std::size_t last) {
-        bool all = true;
-        for (std::size_t i = first; i < last; ++i)
-            if (is_asked(rows[i]))
-                for (const float number : rows[i])
-                    all = all && (back(scale(number)) == number || !std::isfinite(number));
-        if (!all)
-            exact = false;
-    });
-    return exact;
-}
-
-/// Sets how the tree's numbers are scaled: so that those of the rows that are asked, times the
-/// reach, become less than 1. What is left out of the tree is not to be asked: it may be huge.
-template <std::size_t Count, typename IsAsked>
-void set_scale(
-    FloatTree& tree,
-    std::span<const std::array<float, Count>> rows,
-    const IsAsked& is_asked,
-    double reach) {
-    const double largest = reach * static_cast<double>(largest_number(rows, is_asked));
+/// Sets how the tree's numbers are scaled: so that what is as large as this becomes less than 1.
+/// What is left out of the tree, as numbers that no element has, is not to be counted: it may be
+/// huge, and what is much smaller than 1 is not settled in single precision.
+inline void set_scale(FloatTree& tree, double largest) {
     if (largest > 0) {
         int exponent = 0;
         std::frexp(largest, &exponent);
@@ -73,7 +45,28 @@ void set_scale(
     }
     tree.scale = FloatScale(tree.exponent);
     tree.scale_back = FloatScale(-tree.exponent);
-    tree.exact = scales_exactly(rows, is_asked, tree.exponent);
+}
+
+/// Whether each of the numbers can be had back from what it becomes.
+template <std::size_t Count>
+bool scales_exactly(const FloatTree& tree, const std::array<float, Count>& numbers) {
+    return std::all_of(numbers.begin(), numbers.end(), [&](float number) {
+        return tree.scale_back(tree.scale(number)) == number || !std::isfinite(number);
+    });
+}
+
+/// Whether that holds for each of so many numbers.
+template <typename Holds>
+bool holds_for_all(std::size_t count, const Holds& holds) {
+    std::atomic<bool> all = true;
+    parallel_ranges(count, float_tree_grain, [&](std::size_t first, std::size_t last) {
+        bool of_part = true;
+        for (std::size_t i = first; i < last; ++i)
+            of_part = of_part && holds(i);
+        if (!of_part)
+            all = false;
+    });
+    return all;
 }
 
 /// The boxes of so many elements; those of which box_of(number) is empty are left out.
@@ -98,8 +91,9 @@ std::vector<BoxReference> float_references(std::size_t count, const BoxOf& box_o
     return references;
 }
 
-/// Makes the tree of the references, which is scaled already; numbers_of(element) is an array of
-/// what stands of it in a leaf's rows, but for the last. Returns how many leaves there are.
+/// Makes the tree of the references, whose boxes are scaled already; numbers_of(element) is an
+/// array of what stands of it, scaled, in a leaf's rows, but for the last. Returns how many leaves
+/// there are.
 template <typename Tree, typename NumbersOf>
 std::size_t grow_float_tree(
     Tree& tree,

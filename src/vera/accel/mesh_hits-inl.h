@@ -52,10 +52,10 @@ struct HitRows {
 /// by it. That of a MeshHit that is none for lanes that do not meet their triangles.
 HWY_INLINE void
 cross_planes(const RayGroup& group, const CornerRows& corners, GroupMask met, HitRows& hits) {
-    const Doubles d;
+    const DecidingLanes d;
     const MeshHit none;
-    const hn::Rebind<float, Doubles> f;
-    using V = hn::Vec<Doubles>;
+    const hn::Rebind<float, DecidingLanes> f;
+    using V = hn::Vec<DecidingLanes>;
     for (std::size_t i = 0; i < group_size; i += hn::Lanes(d)) {
         const auto row = [&](const GroupRow<float>& values)
                              HWY_ATTR { return hn::PromoteTo(d, hn::Load(f, values.data() + i)); };

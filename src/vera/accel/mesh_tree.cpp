@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -50,7 +52,34 @@ void check_corners(const MeshSpans& mesh) {
         vertices));
 }
 
-/// The box of the corners; empty where a coordinate is not finite.
+/// The largest coordinate of the corners, without its sign; 0 where one is not finite, as such a
+/// triangle is left out.
+float size_of(const MeshSpans& mesh, const Corners& corners) {
+    // Without the sign, bits have the order of the numbers, and those that are not finite come
+    // last.
+    std::uint32_t bits = 0;
+    for (const std::uint32_t corner : corners)
+        for (const float coordinate : mesh.vertices[corner])
+            bits = std::max(bits, std::bit_cast<std::uint32_t>(coordinate) & 0x7fffffffU);
+    const auto size = std::bit_cast<float>(bits);
+    return std::isfinite(size) ? size : 0;
+}
+
+/// Whether the coordinates of all triangles that are not left out can be had back. Mostly they can
+/// of all vertices, which is sooner known.
+bool scale_exactly(const MeshSpans& mesh, const FloatTree& tree) {
+    const auto is_exact = [&](std::size_t vertex) {
+        return scales_exactly(tree, mesh.vertices[vertex]);
+    };
+    return holds_for_all(mesh.vertices.size(), is_exact)
+        || holds_for_all(mesh.triangles.size(), [&](std::size_t i) {
+               const Corners& corners = mesh.triangles[i];
+               return size_of(mesh, corners) == 0
+                   || std::all_of(corners.begin(), corners.end(), is_exact);
+           });
+}
+
+/// The box of the corners, scaled; empty where a coordinate is not finite.
 FloatBox box_of(const MeshSpans& mesh, const Corners& corners, const FloatScale& scale) {
     FloatBox box;
     for (const std::uint32_t corner : corners)
@@ -75,12 +104,13 @@ MeshTree build_mesh_tree(MeshSpans mesh, MeshIndexQuality quality, const CancelF
     check_corners(mesh);
     MeshTree tree;
     tree.mesh = mesh;
-    set_scale(
-        tree, mesh.vertices, [](const auto&) { return true; }, 1);
-    const FloatScale& scale = tree.scale;
+    const float largest = largest_size(
+        mesh.triangles.size(), [&](std::size_t i) { return size_of(mesh, mesh.triangles[i]); });
+    set_scale(tree, static_cast<double>(largest));
+    tree.exact = scale_exactly(mesh, tree);
     std::vector<BoxReference> references =
         float_references(mesh.triangles.size(), [&](std::size_t i) {
-            return box_of(mesh, mesh.triangles[i], scale);
+            return box_of(mesh, mesh.triangles[i], tree.scale);
         });
     const std::size_t triangles = references.size();
     const std::size_t leaves =
@@ -89,7 +119,7 @@ MeshTree build_mesh_tree(MeshSpans mesh, MeshIndexQuality quality, const CancelF
             for (std::size_t corner = 0; corner < 3; ++corner)
                 for (std::size_t axis = 0; axis < 3; ++axis)
                     numbers[3 * corner + axis] =
-                        scale(mesh.vertices[mesh.triangles[triangle][corner]][axis]);
+                        tree.scale(mesh.vertices[mesh.triangles[triangle][corner]][axis]);
             return numbers;
         });
     tree.statistics = {

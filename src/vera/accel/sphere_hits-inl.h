@@ -30,15 +30,15 @@ namespace vera::detail::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 /// A sphere's center and radius for each lane.
-using SphereRows = std::array<GroupRow<float>, 4>;
+using GroupSpheres = std::array<GroupRow<float>, 4>;
 
 /// The t of first_covered() of sphere_crossings(), to the bit: what is multiplied here by a power
 /// of two is divided by it. No number for lanes that do not meet their spheres.
 HWY_INLINE void
-cross_spheres(const RayGroup& group, const SphereRows& spheres, GroupRow<float>& t) {
-    const Doubles d;
-    const hn::Rebind<float, Doubles> f;
-    using V = hn::Vec<Doubles>;
+cross_spheres(const RayGroup& group, const GroupSpheres& spheres, GroupRow<float>& t) {
+    const DecidingLanes d;
+    const hn::Rebind<float, DecidingLanes> f;
+    using V = hn::Vec<DecidingLanes>;
     for (std::size_t i = 0; i < group_size; i += hn::Lanes(d)) {
         const auto row = [&](const GroupRow<float>& values)
                              HWY_ATTR { return hn::PromoteTo(d, hn::Load(f, values.data() + i)); };
@@ -74,7 +74,7 @@ take_sure_hits(const Search<SphereTree>& search, const RayGroup& group, SphereHi
     std::fill(hits, hits + group.rays.size(), SphereHit{});
     if (met == 0)
         return;
-    SphereRows spheres = {};
+    GroupSpheres spheres = {};
     for (GroupMask rest = met; rest != 0; rest &= rest - 1) {
         const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
         const std::uint32_t place = group.place[lane];

@@ -4,6 +4,7 @@
 #include "vera/accel/float_plain_search.h"
 #include "vera/accel/float_tree_build.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <stdexcept>
@@ -15,19 +16,26 @@ namespace vera::detail {
 
 namespace {
 
-std::array<float, 4> scaled(const std::array<float, 4>& sphere, const FloatScale& scale) {
-    return {scale(sphere[0]), scale(sphere[1]), scale(sphere[2]), scale(sphere[3])};
+/// The largest of the sphere's numbers, without its sign; 0 where it is none and left out.
+float size_of(const std::array<float, 4>& sphere) {
+    if (!is_sphere(sphere))
+        return 0;
+    float size = sphere[3];
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        size = std::max(size, std::abs(sphere[axis]));
+    return size;
 }
 
-/// The sphere's box, rounded outward; empty where it is none.
+/// The sphere's box, scaled and rounded outward; empty where it is none.
 FloatBox box_of(const std::array<float, 4>& sphere, const FloatScale& scale) {
     FloatBox box;
     if (!is_sphere(sphere))
         return box;
-    const std::array<float, 4> numbers = scaled(sphere, scale);
+    const float radius = scale(sphere[3]);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        box.lower[axis] = std::nextafter(numbers[axis] - numbers[3], -HUGE_VALF);
-        box.upper[axis] = std::nextafter(numbers[axis] + numbers[3], HUGE_VALF);
+        const float center = scale(sphere[axis]);
+        box.lower[axis] = std::nextafter(center - radius, -HUGE_VALF);
+        box.upper[axis] = std::nextafter(center + radius, HUGE_VALF);
     }
     return box;
 }
@@ -43,13 +51,21 @@ SphereTree build_sphere_tree(SphereSpan spheres, IndexQuality quality, const Can
     SphereTree tree;
     tree.spheres = spheres;
     // A sphere reaches as far as the largest coordinate and the largest radius together.
-    set_scale(tree, spheres, is_sphere, 2);
+    const float largest =
+        largest_size(spheres.size(), [&](std::size_t i) { return size_of(spheres[i]); });
+    set_scale(tree, 2 * static_cast<double>(largest));
+    tree.exact = holds_for_all(spheres.size(), [&](std::size_t i) {
+        return !is_sphere(spheres[i]) || scales_exactly(tree, spheres[i]);
+    });
     std::vector<BoxReference> references = float_references(
         spheres.size(), [&](std::size_t i) { return box_of(spheres[i], tree.scale); });
     const std::size_t met = references.size();
     const std::size_t leaves =
         grow_float_tree(tree, std::move(references), quality, cancel, [&](std::uint32_t sphere) {
-            return scaled(spheres[sphere], tree.scale);
+            std::array<float, 4> numbers = spheres[sphere];
+            for (float& number : numbers)
+                number = tree.scale(number);
+            return numbers;
         });
     tree.statistics = {
         met, spheres.size() - met, tree.levels, tree.nodes.size(), leaves, bytes_of(tree)};

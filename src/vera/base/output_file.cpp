@@ -6,6 +6,8 @@
 
 #include <cerrno>
 #include <charconv>
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -109,7 +111,7 @@ namespace detail {
 /// Either a partial file in a folder, or something that is written directly.
 struct OutputTarget {
     Descriptor direct;
-    Descriptor folder;
+    std::shared_ptr<const Descriptor> folder;
     std::optional<PartialFile> partial; ///< behind the folder, which it needs to the end
     std::vector<std::byte> buffer;      ///< written, but not to the file yet
 
@@ -119,6 +121,29 @@ struct OutputTarget {
 } // namespace detail
 
 namespace {
+
+bool are_one_file(const Descriptor& a, const Descriptor& b) {
+    struct stat of_a = {};
+    struct stat of_b = {};
+    return fstat(a.number(), &of_a) == 0 && fstat(b.number(), &of_b) == 0
+        && of_a.st_dev == of_b.st_dev && of_a.st_ino == of_b.st_ino;
+}
+
+/// The folder, open: the same descriptor as the last one's that is still open, if it is the same
+/// folder, since a process may have few and many files may wait in one folder.
+std::shared_ptr<const Descriptor> opened_folder(const fs::path& folder, const std::string& name) {
+    static std::mutex mutex;
+    static std::weak_ptr<const Descriptor> last;
+    auto opened =
+        std::make_shared<const Descriptor>(open(folder.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));
+    if (opened->number() < 0)
+        detail::throw_unwritable(name, errno);
+    const std::lock_guard lock(mutex);
+    if (auto open_already = last.lock(); open_already && are_one_file(*open_already, *opened))
+        return open_already;
+    last = opened;
+    return opened;
+}
 
 /// A partial file beside path, which is no link. Existing is what stands there, if anything does.
 void open_beside(
@@ -134,10 +159,8 @@ void open_beside(
         detail::throw_unwritable(name, EISDIR);
 
     // Kept open: the file finds its place even if the working folder changes meanwhile.
-    target.folder = Descriptor(open(folder.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));
-    if (target.folder.number() < 0)
-        detail::throw_unwritable(name, errno);
-    target.partial.emplace(target.folder.number(), path.filename().native(), name);
+    target.folder = opened_folder(folder, name);
+    target.partial.emplace(target.folder->number(), path.filename().native(), name);
     constexpr mode_t permissions = 0777;
     if (existing != nullptr)
         fchmod(target.partial->descriptor(), existing->st_mode & permissions);
@@ -208,18 +231,27 @@ void OutputFile::write_at(std::uint64_t position, std::span<const std::byte> byt
     write_fully(target_->descriptor(), bytes, position, name_);
 }
 
-void OutputFile::commit() {
+void OutputFile::finish() {
     VERA_CHECK(target_->descriptor() >= 0);
     flush();
+    target_->buffer = {};
+    if (!target_->partial)
+        return;
+    if (fsync(target_->descriptor()) != 0)
+        detail::throw_unwritable(name_, errno);
+    target_->partial->finish();
+}
+
+void OutputFile::commit() {
+    if (target_->descriptor() >= 0)
+        finish();
     if (!target_->partial) {
         if (close(target_->direct.release()) != 0 && errno != EINTR)
             detail::throw_unwritable(name_, errno);
         return;
     }
-    if (fsync(target_->descriptor()) != 0)
-        detail::throw_unwritable(name_, errno);
     target_->partial->take_place();
-    sync_folder(target_->folder.number(), name_);
+    sync_folder(target_->folder->number(), name_);
 }
 
 } // namespace vera

@@ -44,6 +44,11 @@ public:
     /// The position of write() stays as it is.
     void write_at(std::uint64_t position, std::span<const std::byte> bytes);
 
+    /// Nothing more will be written: all that was is on the disk when this returns, and the file is
+    /// closed but has not appeared. Many may wait so for their commit, in a folder that is open
+    /// once for all.
+    void finish();
+
     /// Makes the file appear: all that was written is on the disk when this returns. Once, at the
     /// end.
     void commit();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/base/partial_file.h"
 
+#include "vera/base/check.h"
 #include "vera/base/output_file.h"
 
 #include <array>
@@ -151,10 +152,14 @@ PartialFile::~PartialFile() {
     note_->state = State::free;
 }
 
-void PartialFile::take_place() {
+void PartialFile::finish() {
     // Some file systems report only here that the disk is full.
     if (close(std::exchange(descriptor_, -1)) != 0 && errno != EINTR)
         throw_unwritable(shown_name_, errno);
+}
+
+void PartialFile::take_place() {
+    VERA_CHECK(descriptor_ < 0 && note_ != nullptr);
     if (renameat(folder_, note_->name.data(), folder_, target_.c_str()) != 0)
         throw_unwritable(shown_name_, errno);
     std::exchange(note_, nullptr)->state = State::free;

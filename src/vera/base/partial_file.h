@@ -21,9 +21,13 @@ public:
     PartialFile(const PartialFile&) = delete;
     PartialFile& operator=(const PartialFile&) = delete;
 
+    /// -1 when the file is finished.
     int descriptor() const { return descriptor_; }
 
-    /// Closes the file and gives it the target's name, in place of what has it now.
+    /// Closes the file.
+    void finish();
+
+    /// Gives the file, which is finished, the target's name, in place of what has it now.
     void take_place();
 
 private:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "vera/base/check.h"
 #include "vera/exact/screen_point.h"
 
 #include <array>
@@ -17,11 +18,14 @@ public:
 
     /// The point must lie in the picture, as all that point_at() returns do.
     PackedPoint(const RationalPoint& point) { // NOLINT: it is the same point
-        const std::uint64_t whole = static_cast<std::uint64_t>(point.whole.x) << half_bits
-            | static_cast<std::uint64_t>(point.whole.y);
+        // Then nothing is cut off here. A number below 0 has bits above all that there is room for.
+        VERA_CHECK(
+            (bits(point.whole.x) | bits(point.whole.y)) <= half_mask
+            && (bits(point.x_numerator) | bits(point.y_numerator) | bits(point.denominator))
+                <= most_number);
+        const std::uint64_t whole = bits(point.whole.x) << half_bits | bits(point.whole.y);
         const auto word = [&](std::int64_t number, int third) {
-            return static_cast<std::uint64_t>(number) << third_bits
-                | (whole >> (third * third_bits) & third_mask);
+            return bits(number) << third_bits | (whole >> (third * third_bits) & third_mask);
         };
         words_ = {
             word(point.x_numerator, 0), word(point.y_numerator, 1), word(point.denominator, 2)};
@@ -57,12 +61,17 @@ public:
     }
 
 private:
+    static constexpr std::uint64_t bits(std::int64_t number) {
+        return static_cast<std::uint64_t>(number);
+    }
+
     // Both whole coordinates in 48 bits, of which each word has a third below one of the fraction's
     // numbers.
     static constexpr int half_bits = 24;
     static constexpr int third_bits = 16;
     static constexpr std::uint64_t half_mask = (std::uint64_t{1} << half_bits) - 1;
     static constexpr std::uint64_t third_mask = (std::uint64_t{1} << third_bits) - 1;
+    static constexpr std::uint64_t most_number = ~std::uint64_t{0} >> third_bits;
     static_assert(screen_bits < half_bits, "screen_size itself is a coordinate");
     static_assert(2 * screen_bits + 1 < 64 - third_bits, "that of crossing_place() is the longest");
 

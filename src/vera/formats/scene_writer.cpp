@@ -2,6 +2,7 @@
 #include "vera/formats/scene_writer.h"
 
 #include "vera/base/check.h"
+#include "vera/base/long_loop.h"
 #include "vera/formats/vera_keywords.h"
 
 #include <algorithm>
@@ -60,11 +61,34 @@ std::vector<std::string> names_of(const Things& things, std::string_view sort) {
     return names;
 }
 
+/// How many statements tell the geometry: one for each item, but of a mesh for each triangle.
+std::size_t statement_count(const Geometry& geometry) {
+    std::size_t count = geometry.items.size() - geometry.meshes.size();
+    for (const Mesh& mesh : geometry.meshes)
+        count += mesh.position_indices.size() / 3;
+    return count;
+}
+
+std::size_t statement_count(const Scene& scene) {
+    std::size_t count = (scene.camera ? 1 : 0) + scene.lights.size() + scene.materials.size()
+        + statement_count(scene.geometry);
+    for (const Geometry& geometry : scene.subscenes)
+        count += statement_count(geometry);
+    return count;
+}
+
 class SceneWriter {
 public:
-    SceneWriter(const Scene& scene, const std::function<void(std::string_view)>& write)
+    SceneWriter(
+        const Scene& scene,
+        const std::function<void(std::string_view)>& write,
+        const Progress& progress,
+        const CancelFlag* cancel)
         : scene_(scene)
         , write_(write)
+        , progress_(progress)
+        , cancel_(cancel)
+        , statements_(statement_count(scene))
         , materials_(names_of(scene.materials, "material"))
         , subscenes_(names_of(scene.subscenes, "part")) {}
 
@@ -86,12 +110,16 @@ public:
 
 private:
     void flush() {
+        stop_if_raised(cancel_);
         write_({text_.data(), text_.size()});
         text_.clear();
+        if (progress_ && statements_ > 0)
+            progress_(static_cast<double>(written_) / static_cast<double>(statements_));
     }
 
     void end_statement() {
         append(text_, "\n");
+        ++written_;
         constexpr std::size_t enough = 1U << 16U;
         if (text_.size() > enough)
             flush();
@@ -262,6 +290,10 @@ private:
 
     const Scene& scene_;
     const std::function<void(std::string_view)>& write_;
+    const Progress& progress_;
+    const CancelFlag* cancel_;
+    std::size_t statements_;
+    std::size_t written_ = 0; ///< of the statements
     std::vector<std::string> materials_;
     std::vector<std::string> subscenes_;
     Text text_;
@@ -269,8 +301,12 @@ private:
 
 } // namespace
 
-void write_vera_scene(const Scene& scene, const std::function<void(std::string_view)>& write) {
-    SceneWriter(scene, write).write();
+void write_vera_scene(
+    const Scene& scene,
+    const std::function<void(std::string_view)>& write,
+    const Progress& progress,
+    const CancelFlag* cancel) {
+    SceneWriter(scene, write, progress, cancel).write();
 }
 
 std::string vera_scene_text(const Scene& scene) {

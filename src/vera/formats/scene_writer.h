@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "vera/base/parallel.h"
 #include "vera/scene/scene.h"
 
 #include <functional>
@@ -16,7 +17,13 @@ namespace vera {
 ///
 /// The scene must be one that has no need of IP, as those of generators are: the outside of faces
 /// is where their normals say, and in each geometry what has no material stands first.
-void write_vera_scene(const Scene& scene, const std::function<void(std::string_view)>& write);
+///
+/// Tells after each piece how much has been written. Throws Cancelled.
+void write_vera_scene(
+    const Scene& scene,
+    const std::function<void(std::string_view)>& write,
+    const Progress& progress = {},
+    const CancelFlag* cancel = nullptr);
 
 /// The same as one text.
 std::string vera_scene_text(const Scene& scene);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/formats/source_text.h"
 
+#include "vera/base/read_bytes.h"
 #include "vera/base/utf8.h"
 #include "vera/formats/similar_file.h"
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <system_error>
 
@@ -22,22 +22,6 @@ namespace {
     throw std::system_error(error, std::generic_category(), "cannot read '" + path + "'");
 }
 
-std::string everything_from(int file, const std::string& path) {
-    std::string text;
-    std::array<char, 65536> buffer;
-    while (true) {
-        const ssize_t count = read(file, buffer.data(), buffer.size());
-        if (count == 0)
-            return text;
-        if (count < 0) {
-            if (errno == EINTR)
-                continue;
-            throw_for(path, errno);
-        }
-        text.append(buffer.data(), static_cast<std::size_t>(count));
-    }
-}
-
 /// A file descriptor that is closed at the end of its scope.
 struct OpenFile {
     int descriptor;
@@ -51,7 +35,7 @@ struct OpenFile {
 
 } // namespace
 
-SourceText::SourceText(const std::filesystem::path& path)
+SourceText::SourceText(const std::filesystem::path& path, std::size_t most_streamed)
     : name_(path.string()) {
     const bool standard_input = name_ == "-";
     if (standard_input)
@@ -84,7 +68,8 @@ SourceText::SourceText(const std::filesystem::path& path)
             return;
         }
     }
-    owned_ = everything_from(file.descriptor, name_);
+    owned_ = bytes_to_end<std::string>(
+        file.descriptor, name_, S_ISREG(status.st_mode) ? size : 0, most_streamed);
     data_ = owned_.data();
     size_ = owned_.size();
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "vera/base/diagnostic.h"
+#include "vera/base/read_bytes.h"
 
 #include <cstddef>
 #include <filesystem>
@@ -15,8 +16,10 @@ namespace vera {
 /// they are asked for, which errors alone do.
 class SourceText {
 public:
-    /// Throws std::system_error, naming the path, when the file cannot be read.
-    explicit SourceText(const std::filesystem::path& path);
+    /// Throws std::system_error, naming the path, when the file cannot be read, and InputError when
+    /// it is no regular file and more than so many bytes come from it.
+    explicit SourceText(
+        const std::filesystem::path& path, std::size_t most_streamed = most_streamed_bytes);
     /// A text from memory, under a name.
     SourceText(std::string name, std::string text);
     ~SourceText();

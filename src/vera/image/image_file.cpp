@@ -51,50 +51,8 @@ std::size_t sample_count(const Image& image) {
     return std::visit([](const auto& samples) { return samples.size(); }, image.samples);
 }
 
-[[noreturn]] void throw_unreadable(const std::string& name, int error) {
-    throw std::system_error(error, std::generic_category(), "cannot read " + name);
-}
-
-/// All bytes of a file, or of standard input.
-std::vector<std::byte>
-bytes_of(const std::filesystem::path& path, std::size_t most, const std::string& name) {
-    struct OpenFile {
-        int descriptor;
-        bool ours;
-
-        ~OpenFile() {
-            if (ours && descriptor >= 0)
-                close(descriptor);
-        }
-    };
-
-    const bool standard_input = path == "-";
-    const OpenFile file = {
-        standard_input ? STDIN_FILENO : open(path.c_str(), O_RDONLY | O_CLOEXEC), !standard_input};
-    struct stat status = {};
-    if (file.descriptor < 0 || fstat(file.descriptor, &status) != 0)
-        throw_unreadable(name, errno);
-
-    constexpr std::size_t step = std::size_t{1} << 16;
-    std::size_t size = 0;
-    std::vector<std::byte> bytes(std::min(
-        S_ISREG(status.st_mode) ? static_cast<std::size_t>(status.st_size) + 1 : step, most));
-    while (true) {
-        if (size == bytes.size())
-            bytes.resize(2 * size);
-        const ssize_t count = read(file.descriptor, bytes.data() + size, bytes.size() - size);
-        if (count < 0 && errno == EINTR)
-            continue;
-        if (count < 0)
-            throw_unreadable(name, errno);
-        if (count == 0)
-            break;
-        size += static_cast<std::size_t>(count);
-        if (size >= most)
-            break;
-    }
-    bytes.resize(std::min(size, most));
-    return bytes;
+std::string shown_name(const std::filesystem::path& path) {
+    return path == "-" ? "standard input" : path.string();
 }
 
 } // namespace
@@ -201,13 +159,32 @@ Image decoded_image(std::span<const std::byte> bytes, const std::string& name) {
         name, text.empty() ? "it is empty" : "its first bytes are those of no format known here");
 }
 
-std::vector<std::byte> file_bytes(const std::filesystem::path& path, std::size_t most) {
-    return bytes_of(
-        path, most, path == "-" ? "standard input" : fmt::format("'{}'", path.string()));
+std::vector<std::byte> file_bytes(const std::filesystem::path& path, std::size_t most_streamed) {
+    struct OpenFile {
+        int descriptor;
+        bool ours;
+
+        ~OpenFile() {
+            if (ours && descriptor >= 0)
+                close(descriptor);
+        }
+    };
+
+    const std::string name = shown_name(path);
+    const bool standard_input = path == "-";
+    const OpenFile file = {
+        standard_input ? STDIN_FILENO : open(path.c_str(), O_RDONLY | O_CLOEXEC), !standard_input};
+    struct stat status = {};
+    if (file.descriptor < 0 || fstat(file.descriptor, &status) != 0)
+        throw std::system_error(
+            errno, std::generic_category(), fmt::format("cannot read '{}'", name));
+
+    const std::size_t size = S_ISREG(status.st_mode) ? static_cast<std::size_t>(status.st_size) : 0;
+    return bytes_to_end<std::vector<std::byte>>(file.descriptor, name, size, most_streamed);
 }
 
 Image read_image(const std::filesystem::path& path) {
-    return decoded_image(file_bytes(path), path == "-" ? "standard input" : path.string());
+    return decoded_image(file_bytes(path), shown_name(path));
 }
 
 namespace detail {

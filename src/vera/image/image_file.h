@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "vera/base/read_bytes.h"
 #include "vera/image/image.h"
 
 #include <cstddef>
 #include <filesystem>
-#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -76,10 +76,10 @@ void write_image(
 /// suffice.
 Image read_image(const std::filesystem::path& path);
 
-/// All bytes of a file, or of standard input where the path is "-"; of more than so many the first.
-/// Throws std::system_error.
-std::vector<std::byte> file_bytes(
-    const std::filesystem::path& path, std::size_t most = std::numeric_limits<std::size_t>::max());
+/// All bytes of a file, or of standard input where the path is "-". Throws std::system_error, and
+/// InputError when it is no regular file and more than so many bytes come from it.
+std::vector<std::byte>
+file_bytes(const std::filesystem::path& path, std::size_t most_streamed = most_streamed_bytes);
 
 /// The picture in the bytes of a file; the name is for messages.
 Image decoded_image(std::span<const std::byte> bytes, const std::string& name);

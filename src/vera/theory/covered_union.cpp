@@ -49,14 +49,13 @@ CoveredUnion::CoveredUnion(std::int32_t columns, std::int32_t rows, WindowCounts
 
 /// Where the row of cells inside the side is free. Borders across it that are met in the box part
 /// what is free from what is covered; where there are none it is all the same.
-CoveredUnion::Side CoveredUnion::side_of(
-    const CellBox& box, std::size_t axis, bool is_upper, const std::array<Pieces, 2>& met) const {
-    const PlaceRange rows = box.cells.at(1 - axis);
-    const PlaceRange range = box.cells.at(axis);
-    Side side = {axis, is_upper ? rows.end - 1 : rows.begin, is_upper, {}};
+BoxSide CoveredUnion::side_of(const BoxMeeting& meeting, std::size_t axis, bool is_upper) const {
+    const PlaceRange rows = meeting.box.cells.at(1 - axis);
+    const PlaceRange range = meeting.box.cells.at(axis);
+    BoxSide side = {axis, is_upper ? rows.end - 1 : rows.begin, is_upper, {}};
     std::optional<std::int32_t> begin; // of what is free
     bool is_crossed = false;
-    for (const WindowSegment& crossing : met.at(1 - axis)) {
+    for (const WindowSegment& crossing : meeting.pieces.at(1 - axis)) {
         if (!crossing.along.contains(side.inside))
             continue;
         is_crossed = true;
@@ -91,7 +90,7 @@ void CoveredUnion::uncover(const CellBox& box, std::size_t axis, const WindowSeg
 
 /// Where cells inside the side and those beyond were free there is a new border, whose free side
 /// lies beyond; where those beyond were covered, a piece was met.
-void CoveredUnion::add_border(const Side& side, const Pieces& met) {
+void CoveredUnion::add_border(const BoxSide& side, const std::vector<WindowSegment>& met) {
     const std::int32_t coinciding = place_across(side.inside, side.is_upper);
     const std::int32_t beyond = side.is_upper ? side.inside + 1 : side.inside - 1;
     const std::int32_t across = place_across(beyond, !side.is_upper);
@@ -114,32 +113,65 @@ void CoveredUnion::add_border(const Side& side, const Pieces& met) {
     }
 }
 
-std::vector<GridEdge> CoveredUnion::cover(const CellBox& box) {
-    std::array<Pieces, 2> met;
+BoxMeeting CoveredUnion::meeting(const CellBox& box) const {
+    BoxMeeting meeting = {box, {}, {}};
     for (std::size_t axis = 0; axis < 2; ++axis)
-        met.at(axis) =
+        meeting.pieces.at(axis) =
             along_.at(axis).in_window(box.cells.at(axis), pieces_beside(box.cells.at(1 - axis)));
-    std::vector<Side> sides;
     for (std::size_t axis = 0; axis < 2; ++axis)
         for (const bool is_upper : {false, true})
-            sides.push_back(side_of(box, axis, is_upper, met));
+            meeting.sides.push_back(side_of(meeting, axis, is_upper));
+    return meeting;
+}
 
+/// Pieces in the box become the border of its free part, and so do its free sides.
+std::size_t BoxMeeting::most_edges() const {
+    std::size_t edges = pieces[0].size() + pieces[1].size();
+    for (const BoxSide& side : sides)
+        edges += side.free.size();
+    return edges;
+}
+
+/// What of pieces goes on outside the box stays; where sides were free there is a new border, which
+/// pieces that coincide with a side part once more each.
+std::size_t CoveredUnion::most_new_entries(const BoxMeeting& meeting) const {
+    std::size_t entries = 0;
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+        const PlaceRange range = meeting.box.cells.at(axis);
+        std::size_t segments = 0;
+        for (const WindowSegment& piece : meeting.pieces.at(axis)) {
+            segments +=
+                (piece.along.begin < range.begin ? 1 : 0) + (range.end < piece.along.end ? 1 : 0);
+            for (const BoxSide& side : meeting.sides)
+                if (side.axis == axis && piece.across == place_across(side.inside, side.is_upper))
+                    ++segments;
+        }
+        for (const BoxSide& side : meeting.sides)
+            if (side.axis == axis)
+                segments += side.free.size();
+        entries += segments * along_.at(axis).most_entries_of_segment();
+    }
+    return entries;
+}
+
+std::vector<GridEdge> CoveredUnion::cover(const BoxMeeting& meeting) {
+    const CellBox& box = meeting.box;
     std::vector<GridEdge> edges;
     const auto add_edge = [&](std::size_t axis, std::int32_t across, PlaceRange along) {
         edges.push_back(edge_along(axis, {across, along}));
     };
     for (std::size_t axis = 0; axis < 2; ++axis)
-        for (const WindowSegment& piece : met.at(axis)) {
+        for (const WindowSegment& piece : meeting.pieces.at(axis)) {
             const PlaceRange rows = box.cells.at(1 - axis);
             // Those on a side of the box are part of what is free inside it.
             if (rows.begin < coordinate(piece) && coordinate(piece) < rows.end)
                 add_edge(axis, piece.across, common_part(piece.along, box.cells.at(axis)));
             uncover(box, axis, piece);
         }
-    for (const Side& side : sides) {
+    for (const BoxSide& side : meeting.sides) {
         for (const PlaceRange free : side.free)
             add_edge(side.axis, place_across(side.inside, side.is_upper), free);
-        add_border(side, met.at(side.axis));
+        add_border(side, meeting.pieces.at(side.axis));
     }
     return edges;
 }

@@ -11,6 +11,7 @@
 #include "vera/theory/window_tree.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -37,35 +38,47 @@ struct GridEdge {
     GridCorner to;
 };
 
+/// A side of a box, along the axis.
+struct BoxSide {
+    std::size_t axis = 0;
+    std::int32_t inside = 0; ///< the number across of the box's cells beside it
+    bool is_upper = false;
+    std::vector<PlaceRange> free; ///< where the cells inside are free, in ascending order
+};
+
+/// What a box that is to be covered meets.
+struct BoxMeeting {
+    CellBox box;
+    std::array<std::vector<WindowSegment>, 2> pieces; ///< of the border, along x and along y
+    std::vector<BoxSide> sides;
+
+    /// That cover() may return of it.
+    std::size_t most_edges() const;
+};
+
 class CoveredUnion {
 public:
     /// Nothing is covered at first. The counts must outlive this.
     CoveredUnion(std::int32_t columns, std::int32_t rows, WindowCounts& counts);
 
-    /// Covers the box. Returns the border of what of it was free before, in no particular order,
-    /// and straight parts of it perhaps as several edges; nothing if all was covered. Takes
-    /// O((1 + p) log^2 n) for p pieces of the border that are in the box.
-    std::vector<GridEdge> cover(const CellBox& box);
+    /// Takes O((1 + p) log^2 n) for p pieces of the border that are in the box.
+    BoxMeeting meeting(const CellBox& box) const;
+
+    /// By how many entry_count() may grow, at most, while a box that meets this is covered.
+    std::size_t most_new_entries(const BoxMeeting& meeting) const;
+
+    /// Covers the box, of which the meeting was the last thing asked for. Returns the border of
+    /// what of it was free before, in no particular order, and straight parts of it perhaps as
+    /// several edges; nothing if all was covered. Takes as long.
+    std::vector<GridEdge> cover(const BoxMeeting& meeting);
 
     /// In all nodes of the trees: see WindowTree::bytes_of_entry.
     std::size_t entry_count() const { return along_[0].entry_count() + along_[1].entry_count(); }
 
 private:
-    /// A side of a box, along the axis.
-    struct Side {
-        std::size_t axis = 0;
-        std::int32_t inside = 0; ///< the number across of the box's cells beside it
-        bool is_upper = false;
-        std::vector<PlaceRange> free; ///< where the cells inside are free, in ascending order
-    };
-
-    using Pieces = std::vector<WindowSegment>;
-
-    Side
-    side_of(const CellBox& box, std::size_t axis, bool is_upper, const std::array<Pieces, 2>& met)
-        const;
+    BoxSide side_of(const BoxMeeting& meeting, std::size_t axis, bool is_upper) const;
     void uncover(const CellBox& box, std::size_t axis, const WindowSegment& piece);
-    void add_border(const Side& side, const Pieces& met);
+    void add_border(const BoxSide& side, const std::vector<WindowSegment>& met);
 
     /// Along x, and along y: at 2 i where the cells of number i across, which begin there, are
     /// free, and at 2 i + 1 where those of number i, which end there, are.

@@ -15,7 +15,7 @@ namespace {
 
 /// That of scattered rectangles.
 constexpr std::int32_t reach = 20'000;
-constexpr std::int32_t steepest = fine_steps / 2; ///< of a viewer's rays, which stay in the cube
+constexpr std::int32_t steepest_in_cube = fine_steps / 2; ///< of a viewer's rays
 constexpr std::int32_t sphere_radius = reach / 2;
 
 struct MirroredRay {
@@ -66,16 +66,21 @@ finely_scattered_rectangles(std::size_t count, double parts, std::mt19937_64& ra
     return made;
 }
 
-std::vector<SlopedRay> first_generation(std::size_t count, std::mt19937_64& random) {
+std::vector<SlopedRay> rays_of_viewer(
+    std::size_t count, std::int32_t distance, std::int32_t steepest, std::mt19937_64& random) {
     std::vector<SlopedRay> made(count);
     for (SlopedRay& ray : made) {
         ray.slope_x = whole_within(steepest, random);
         ray.slope_y = whole_within(steepest, random);
-        ray.offset_x = reach * ray.slope_x;
-        ray.offset_y = reach * ray.slope_y;
-        ray.first_z = -reach;
+        ray.offset_x = distance * ray.slope_x;
+        ray.offset_y = distance * ray.slope_y;
+        ray.first_z = -distance;
     }
     return made;
+}
+
+std::vector<SlopedRay> first_generation(std::size_t count, std::mt19937_64& random) {
+    return rays_of_viewer(count, reach, steepest_in_cube, random);
 }
 
 std::vector<SlopedRay> mirrored_generation(std::size_t count, std::mt19937_64& random) {
@@ -95,8 +100,8 @@ std::vector<SlopedRay> mirrored_generation(std::size_t count, std::mt19937_64& r
 WholeRay first_generation_ray(std::mt19937_64& random) {
     WholeRay ray;
     ray.origin = {0, 0, -reach};
-    ray.direction[0] = whole_within(steepest, random);
-    ray.direction[1] = whole_within(steepest, random);
+    ray.direction[0] = whole_within(steepest_in_cube, random);
+    ray.direction[1] = whole_within(steepest_in_cube, random);
     ray.direction[2] = fine_steps;
     return ray;
 }

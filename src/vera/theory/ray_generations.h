@@ -11,6 +11,7 @@
 #include "vera/theory/sloped_ray.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <random>
 #include <vector>
 
@@ -23,7 +24,12 @@ constexpr std::int32_t fine_steps = 1000;
 std::vector<IsoRectangle>
 finely_scattered_rectangles(std::size_t count, double parts, std::mt19937_64& random);
 
-/// Through one point, in the middle of the cube's near face, from there on.
+/// All through one point, at that distance before the middle along z, from there on; slopes within
+/// the steepest.
+std::vector<SlopedRay> rays_of_viewer(
+    std::size_t count, std::int32_t distance, std::int32_t steepest, std::mt19937_64& random);
+
+/// Those of a viewer in the middle of the cube's near face, all of which stay in the cube.
 std::vector<SlopedRay> first_generation(std::size_t count, std::mt19937_64& random);
 
 /// Rays of a viewer beside the middle of the far face, mirrored by a sphere around the middle of

@@ -32,17 +32,9 @@ std::vector<SlopedRay> crossing_rays(std::size_t count, std::mt19937_64& random)
     return made;
 }
 
-/// All through one point before everything.
-std::vector<SlopedRay> rays_of_a_viewer(std::size_t count, std::mt19937_64& random) {
-    std::vector<SlopedRay> made(count);
-    for (SlopedRay& ray : made) {
-        ray.slope_x = whole_within(slope, random);
-        ray.slope_y = whole_within(slope, random);
-        ray.offset_x = slope * ray.slope_x;
-        ray.offset_y = slope * ray.slope_y;
-        ray.first_z = -slope;
-    }
-    return made;
+/// From before everything.
+std::vector<SlopedRay> rays_from_afar(std::size_t count, std::mt19937_64& random) {
+    return rays_of_viewer(count, slope, slope, random);
 }
 
 /// Anywhere within so far of the middle across the z axis, and along it.
@@ -178,7 +170,7 @@ std::vector<Experiment> ray_search_experiments() {
     };
     return {
         of_conjugation_trees("crossing", "rays that all cross each other", crossing_rays),
-        of_conjugation_trees("viewer", "rays of one viewer", rays_of_a_viewer),
+        of_conjugation_trees("viewer", "rays of one viewer", rays_from_afar),
         of_conjugation_trees(
             "mirrored",
             "rays of one viewer, mirrored by a sphere",

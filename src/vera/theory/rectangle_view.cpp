@@ -56,21 +56,26 @@ std::vector<std::uint32_t> depth_order(std::span<const IsoRectangle> rectangles)
     return order;
 }
 
-/// Asks for the memory for a union of twice as many entries whenever it has grown to what was asked
-/// for: how much will be seen, nobody knows before.
-class RoomForUnion {
+/// Asks for memory before it is taken. How much will be seen, nobody knows before: what a rectangle
+/// may take is told by what it meets; and whenever the union and the map have grown to what was
+/// asked for, it is for twice as much.
+class RoomForView {
 public:
-    RoomForUnion(std::size_t rectangles, std::int32_t columns, std::int32_t rows)
+    RoomForView(std::size_t rectangles, std::int32_t columns, std::int32_t rows)
         : what_("what is seen of " + std::to_string(rectangles) + " rectangles") {
         require_bytes(
             WindowTree::bytes_without_segments(columns) + WindowTree::bytes_without_segments(rows));
     }
 
-    void require(std::size_t entries) {
-        if (entries < most_)
-            return;
-        most_ = std::max<std::size_t>(2 * entries, 65536);
-        require_bytes(static_cast<double>(most_ - entries) * WindowTree::bytes_of_entry);
+    void
+    require(const CoveredUnion& covered, const BoxMeeting& meeting, const RectangleView& view) {
+        const std::size_t edges = meeting.most_edges();
+        const std::size_t entries = covered.most_new_entries(meeting);
+        require_bytes(
+            static_cast<double>(edges) * bytes_of_edge
+            + static_cast<double>(entries) * WindowTree::bytes_of_entry);
+        require_twice(covered.entry_count() + entries, WindowTree::bytes_of_entry, most_entries_);
+        require_twice(view.corners.size() + edges, bytes_of_corner, most_corners_);
     }
 
 private:
@@ -79,8 +84,21 @@ private:
             bytes, what_, "take fewer of them, or rectangles that hide more of each other");
     }
 
+    void require_twice(std::size_t count, double bytes, std::size_t& most) const {
+        if (count <= most)
+            return;
+        most = std::max<std::size_t>(2 * count, 65536);
+        require_bytes(static_cast<double>(most) / 2 * bytes);
+    }
+
+    /// Of a corner of the map, with its part of a ring, while lists grow.
+    static constexpr double bytes_of_corner = 28;
+    /// Of what is met, the edges that come of it, and the rings that are made of them.
+    static constexpr double bytes_of_edge = 100;
+
     std::string what_;
-    std::size_t most_ = 0;
+    std::size_t most_entries_ = 0;
+    std::size_t most_corners_ = 0;
 };
 
 } // namespace
@@ -105,18 +123,19 @@ RectangleView rectangle_view(
     ys.sort();
 
     WindowCounts here;
-    RoomForUnion room(order.size(), xs.count(), ys.count());
+    RoomForView room(order.size(), xs.count(), ys.count());
     CoveredUnion covered(xs.count(), ys.count(), here);
     RectangleView view;
     const LongLoop loop(order.size(), progress, cancel);
     for (std::size_t i = 0; i < order.size(); ++i) {
         loop.turn(i);
-        room.require(covered.entry_count());
         const IsoRectangle& rectangle = rectangles[order[i]];
         const CellBox box = {
             {PlaceRange{xs.number(rectangle.lower_x), xs.number(rectangle.upper_x)},
              PlaceRange{ys.number(rectangle.lower_y), ys.number(rectangle.upper_y)}}};
-        for (const GridRing& ring : grid_rings(covered.cover(box), here.comparisons)) {
+        const BoxMeeting meeting = covered.meeting(box);
+        room.require(covered, meeting, view);
+        for (const GridRing& ring : grid_rings(covered.cover(meeting), here.comparisons)) {
             view.rings.push_back({order[i], view.corners.size(), ring.size()});
             for (const GridCorner corner : ring)
                 view.corners.push_back({xs.value(corner.x), ys.value(corner.y)});

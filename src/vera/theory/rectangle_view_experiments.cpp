@@ -51,10 +51,7 @@ Experiment of_family(const OverlaidFamily& family, const Sizes& sizes, CountStep
     experiment.last = sizes.last;
     experiment.last_in_tests = sizes.last_in_tests;
     experiment.most = sizes.most;
-    experiment.count = [make = family.rectangles, count_steps](
-                           std::size_t size, std::uint64_t seed, const CancelFlag* cancel) {
-        return count_steps(make(size, seed), cancel);
-    };
+    experiment.count = count_of_made(family.rectangles, count_steps);
     return experiment;
 }
 
@@ -79,11 +76,7 @@ Experiment sweep_experiment(const OverlaidFamily& family) {
     Experiment experiment =
         of_family(family, is_linear ? linear_sizes : quadratic_sizes, steps_of_swept);
     experiment.name = "rectangles-by-sweep";
-    experiment.counted = "steps of the plane sweep";
-    experiment.bound = "(n + k) log n";
-    experiment.variables = {"n", "k"};
-    experiment.terms = sweep_terms();
-    experiment.source = "VERA appendix";
+    set_sweep_bound(experiment);
     return experiment;
 }
 

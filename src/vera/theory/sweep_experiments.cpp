@@ -78,7 +78,7 @@ Experiment of_rays(const char* name, const std::string& family, const std::strin
 }
 
 /// (m + k) log^2 m + I, of m rays and as many rectangles, k crossings and I rays told.
-const std::vector<BoundTerm>& sweep_terms() {
+const std::vector<BoundTerm>& space_sweep_terms() {
     static const auto square = [](double value) { return value * value; };
     static const std::vector<BoundTerm> terms = {
         {"m log^2 m", [](std::span<const double> mki) { return mki[0] * square(log2_of(mki[0])); }},
@@ -92,7 +92,7 @@ Experiment of_sweep(const RayFamily& family) {
     experiment.counted = "steps of a sweep through as many rectangles";
     experiment.bound = "(m + k) log^2 m + I";
     experiment.variables = {"m", "k", "I"};
-    experiment.terms = sweep_terms();
+    experiment.terms = space_sweep_terms();
     experiment.source = "VERA 3.3.2, the space sweep: k crossings, I rays told; m = n";
     experiment.first = 64;
     experiment.last = 2048;
@@ -108,7 +108,7 @@ Experiment of_sweep(const RayFamily& family) {
             {static_cast<double>(size),
              static_cast<double>(counts.x_swaps + counts.y_swaps),
              static_cast<double>(counts.reports)},
-            sweep_terms());
+            space_sweep_terms());
     };
     return experiment;
 }

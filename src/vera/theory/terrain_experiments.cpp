@@ -57,6 +57,17 @@ ScreenScene hidden_hills(std::size_t triangles, std::uint64_t seed) {
     return scene;
 }
 
+CountedSize steps_of_profiles(const ScreenScene& scene, const CancelFlag* cancel) {
+    TerrainCounts counts;
+    const VisiblePieces pieces = terrain_pieces(scene, Upward::with_y, &counts, {}, cancel);
+    const auto triangles = static_cast<double>(scene.triangles.size());
+    return counted_by_terms(
+        triangles,
+        static_cast<double>(counts.steps()),
+        {triangles, static_cast<double>(pieces.points.size())},
+        seen_terms());
+}
+
 using MakeScene = ScreenScene (*)(std::size_t triangles, std::uint64_t seed);
 
 Experiment of_hills(const char* family, const char* input, MakeScene make) {
@@ -74,17 +85,7 @@ Experiment of_hills(const char* family, const char* input, MakeScene make) {
     experiment.last = 65536;
     experiment.last_in_tests = 4096;
     experiment.most = 1'048'576;
-    experiment.count = [make](std::size_t size, std::uint64_t seed, const CancelFlag* cancel) {
-        const ScreenScene scene = make(size, seed);
-        TerrainCounts counts;
-        const VisiblePieces pieces = terrain_pieces(scene, Upward::with_y, &counts, {}, cancel);
-        const auto triangles = static_cast<double>(scene.triangles.size());
-        return counted_by_terms(
-            triangles,
-            static_cast<double>(counts.steps()),
-            {triangles, static_cast<double>(pieces.points.size())},
-            seen_terms());
-    };
+    experiment.count = count_of_made(make, steps_of_profiles);
     return experiment;
 }
 

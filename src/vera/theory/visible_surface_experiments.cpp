@@ -151,21 +151,14 @@ Experiment of_scenes(const SceneFamily& family, CountSteps count_steps) {
     experiment.last = family.last;
     experiment.last_in_tests = std::min<std::size_t>(family.last / 4, 1024);
     experiment.most = family.most;
-    experiment.count = [make = family.make, count_steps](
-                           std::size_t size, std::uint64_t seed, const CancelFlag* cancel) {
-        return count_steps(make(size, seed), cancel);
-    };
+    experiment.count = count_of_made(family.make, count_steps);
     return experiment;
 }
 
 Experiment sweep_experiment(const SceneFamily& family) {
     Experiment experiment = of_scenes(family, steps_of_scene_sweep);
     experiment.name = "visible-sweep";
-    experiment.counted = "steps of the plane sweep";
-    experiment.bound = "(n + k) log n";
-    experiment.variables = {"n", "k"};
-    experiment.terms = sweep_terms();
-    experiment.source = "VERA appendix";
+    set_sweep_bound(experiment);
     return experiment;
 }
 

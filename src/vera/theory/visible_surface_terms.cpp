@@ -39,4 +39,12 @@ CountedSize steps_of_sweep(const ScreenScene& scene, std::size_t size, const Can
         sweep_terms());
 }
 
+void set_sweep_bound(Experiment& experiment) {
+    experiment.counted = "steps of the plane sweep";
+    experiment.bound = "(n + k) log n";
+    experiment.variables = {"n", "k"};
+    experiment.terms = sweep_terms();
+    experiment.source = "VERA appendix";
+}
+
 } // namespace vera

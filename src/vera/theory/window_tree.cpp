@@ -46,6 +46,13 @@ double WindowTree::bytes_without_segments(std::int32_t places) {
     return 4 * static_cast<double>(leaves_over(places)) * sizeof(Node);
 }
 
+/// A range is at most two nodes of each level below the root's children, or one node, and where it
+/// begins is in one node of each level.
+std::size_t WindowTree::most_entries_of_segment() const {
+    const auto levels = static_cast<std::size_t>(std::bit_width(leaves_)); // with the leaves'
+    return std::max<std::size_t>(2 * levels, 5) - 4 + levels;
+}
+
 /// Calls visit(node) for all that have the segment.
 template <typename Visit>
 void WindowTree::for_each_node_of(const WindowSegment& segment, const Visit& visit) {

@@ -68,6 +68,9 @@ public:
     /// Of all nodes together.
     std::size_t entry_count() const { return entry_count_; }
 
+    /// That a segment may become.
+    std::size_t most_entries_of_segment() const;
+
     /// Of memory, for an entry: about.
     static constexpr std::size_t bytes_of_entry = 48;
 
