@@ -66,6 +66,13 @@ void take_hits(PacketQuery& query, const SearchedScene& searched, std::span<Hit>
 
 void take_transmitted(PacketQuery& query, std::span<Color> transmitted) {
     decide_main_scene(query);
+    if (query.purpose == Purpose::any) {
+        for (std::size_t lane = 0; lane < query.rays.size(); ++lane) {
+            const double part = (query.active >> lane & 1U) != 0 ? 1 : 0;
+            transmitted[lane] = {part, part, part};
+        }
+        return;
+    }
     for (std::size_t lane = 0; lane < query.rays.size(); ++lane)
         transmitted[lane] = query.transmittance[lane].transmitted();
 }
@@ -129,8 +136,9 @@ void find_transmittances(
     const Purpose purpose = searched.opaque ? Purpose::any : Purpose::transmittance;
     const auto begin = [&](PacketQuery& query, std::span<const QueryRay> packet) {
         start(query, searched, packet, purpose);
-        for (std::size_t lane = 0; lane < packet.size(); ++lane)
-            query.transmittance[lane].clear();
+        if (purpose == Purpose::transmittance)
+            for (std::size_t lane = 0; lane < packet.size(); ++lane)
+                query.transmittance[lane].clear();
     };
     const auto finish = [&](PacketQuery& query, std::size_t first) {
         take_transmitted(query, transmitted.subspan(first, query.rays.size()));

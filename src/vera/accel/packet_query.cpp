@@ -136,7 +136,6 @@ bool take_crossing(
         query.window[lane].add(t, face);
         return false;
     case Purpose::any:
-        query.transmittance[lane].block();
         break;
     case Purpose::transmittance:
         query.transmittance[lane].add(t, face, transmission(*query.scene, material));
@@ -557,7 +556,8 @@ bool ends_search(const PacketQuery& query, const Frame& frame, std::uint32_t ele
 void block(PacketQuery& query, Frame& frame, LaneMask lanes) {
     for (LaneMask rest = lanes; rest != 0; rest &= rest - 1) {
         const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-        query.transmittance[lane].block();
+        if (query.purpose == Purpose::transmittance)
+            query.transmittance[lane].block();
         query.limit[lane] = -std::numeric_limits<double>::infinity();
         frame.limit[lane] = static_cast<float>(-farthest);
     }

@@ -196,7 +196,7 @@ private:
 enum class Purpose : std::uint8_t {
     nearest,      ///< the first face
     window,       ///< the first face, when it is known where to stop
-    any,          ///< whether there is one
+    any,          ///< whether there is one: then the lane is not active any more
     transmittance ///< what they let through
 };
 

@@ -92,13 +92,15 @@ void develop(std::span<const Color> colors, Image& image, std::size_t x, std::si
         [&](auto& samples) {
             using Sample = typename std::decay_t<decltype(samples)>::value_type;
             Sample* sample = samples.data() + 3 * (y * image.width + x);
-            const FloatDecoder& decoder = float_decoder();
-            for (const Color& color : colors)
-                for (const double value : {color.r, color.g, color.b})
-                    if constexpr (std::is_same_v<Sample, float>)
-                        *sample++ = decoder.decoded(value);
-                    else
-                        *sample++ = integer_sample<Sample>(value);
+            const auto write = [&](const auto& developed) {
+                for (const Color& color : colors)
+                    for (const double value : {color.r, color.g, color.b})
+                        *sample++ = developed(value);
+            };
+            if constexpr (std::is_same_v<Sample, float>)
+                write([&decoder = float_decoder()](double value) { return decoder.decoded(value); });
+            else
+                write(integer_sample<Sample>);
         },
         image.samples);
 }

@@ -149,10 +149,13 @@ struct LightLanes {
 };
 
 HWY_INLINE Vec highlight_factors(Vec x, Vec spc) {
+    const Mask shines = hn::And(hn::Lt(spc, all(1)), hn::Ge(x, spc));
+    if (hn::AllFalse(Doubles(), shines))
+        return all(0);
     const Vec width = hn::Sub(all(1), spc);
     const Vec factor =
         hn::Div(hn::Mul(hn::Sub(x, spc), hn::Sub(hn::Add(x, spc), all(2))), hn::Mul(width, width));
-    return hn::IfThenElseZero(hn::And(hn::Lt(spc, all(1)), hn::Ge(x, spc)), factor);
+    return hn::IfThenElseZero(shines, factor);
 }
 
 /// The lanes from `lane` on; returns those that the light may reach but whose distance is unusual.
