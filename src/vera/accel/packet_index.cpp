@@ -28,10 +28,8 @@ void start(
     query.geometries = searched.geometries;
     query.recorder = searched.recorder;
     query.purpose = purpose;
-    query.rays = rays;
     query.active = ~LaneMask{0} >> (std::numeric_limits<LaneMask>::digits - rays.size());
-    for (std::size_t lane = 0; lane < rays.size(); ++lane)
-        query.limit[lane] = rays[lane].ray.t_max;
+    take_rays(query, rays);
     query.reach.fill(0);
 }
 
@@ -115,11 +113,9 @@ void find_nearest_hits(
     VERA_CHECK(rays.size() == hits.size());
     const auto begin = [&](PacketQuery& query, std::span<const QueryRay> packet) {
         start(query, searched, packet, Purpose::nearest);
-        for (std::size_t lane = 0; lane < packet.size(); ++lane) {
-            const double reach = coincidence_reach(packet[lane].ray);
-            query.reach[lane] = std::max(reach, 0.0);
-            query.nearest[lane].start(reach);
-        }
+        find_reaches(query);
+        for (std::size_t lane = 0; lane < packet.size(); ++lane)
+            query.nearest[lane].start(query.reach[lane]);
     };
     const auto finish = [&](PacketQuery& query, std::size_t first) {
         take_hits(query, searched, hits.subspan(first, query.rays.size()));
