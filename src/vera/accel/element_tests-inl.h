@@ -435,9 +435,9 @@ HWY_INLINE ConePlace<D> cone_place(D d, const TestedRays<D>& rays, const hn::Vec
             hn::Gt(square, hn::Mul(hn::Set(d, 0.25F), axis.sine_squared)))};
 }
 
-/// The rays whose lines may meet the cone of the mantle, and those of which that is not known: those
-/// for which breadth + error >= apart, and maybe a few more. The root that breadth is would have to
-/// be waited for.
+/// The rays whose lines may meet the cone of the mantle, and those of which that is not known:
+/// those for which breadth + error >= apart, and maybe a few more. The root that breadth is would
+/// have to be waited for.
 template <typename D>
 HWY_INLINE hn::Mask<D> may_meet_cone(D d, const TestedRays<D>& rays, const hn::Vec<D>* values) {
     const auto place = cone_place(d, rays, values);

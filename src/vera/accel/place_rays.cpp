@@ -190,8 +190,9 @@ HWY_INLINE void place_part(
     const auto counted_slack = hn::IfThenElseZero(counts, rays.slack);
     placed.slack = std::max(placed.slack, hn::GetLane(hn::MaxOfLanes(d, counted_slack)));
     // Twice coincidence_tolerance(), as a local distance.
-    const auto reach =
-        hn::Add(hn::Max(row(world_reach, lane), hn::Zero(d)), hn::Abs(hn::LoadU(d, frame.start_t.data() + lane)));
+    const auto reach = hn::Add(
+        hn::Max(row(world_reach, lane), hn::Zero(d)),
+        hn::Abs(hn::LoadU(d, frame.start_t.data() + lane)));
     const auto behind =
         hn::MulAdd(hn::Mul(reach, rays.speed), all(0x1p-40), all(0x1p-40 * farthest));
     placed.behind =

@@ -98,7 +98,8 @@ void develop(std::span<const Color> colors, Image& image, std::size_t x, std::si
                         *sample++ = developed(value);
             };
             if constexpr (std::is_same_v<Sample, float>)
-                write([&decoder = float_decoder()](double value) { return decoder.decoded(value); });
+                write(
+                    [&decoder = float_decoder()](double value) { return decoder.decoded(value); });
             else
                 write(integer_sample<Sample>);
         },

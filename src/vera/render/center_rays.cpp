@@ -27,8 +27,7 @@ void unit_sums_kernel(
         const auto y = hn::Add(hn::LoadU(d, a[1] + i), hn::Set(d, added.y));
         const auto z = hn::Add(hn::LoadU(d, a[2] + i), hn::Set(d, added.z));
         const auto largest = hn::Max(hn::Max(hn::Abs(x), hn::Abs(y)), hn::Abs(z));
-        const auto norm =
-            hn::Sqrt(hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z)));
+        const auto norm = hn::Sqrt(hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z)));
         hn::StoreU(hn::Div(x, norm), d, units[0] + i);
         hn::StoreU(hn::Div(y, norm), d, units[1] + i);
         hn::StoreU(hn::Div(z, norm), d, units[2] + i);

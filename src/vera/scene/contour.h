@@ -53,7 +53,7 @@ struct PlaceOnPiece {
 };
 
 /// Of the point of the piece nearest to the given one.
-PlaceOnPiece nearest_place(
-    const ContourPiece& piece, ContourPiece::Point start, ContourPiece::Point point);
+PlaceOnPiece
+nearest_place(const ContourPiece& piece, ContourPiece::Point start, ContourPiece::Point point);
 
 } // namespace vera

@@ -19,12 +19,16 @@ namespace vera::detail {
 ///   sphere    center                               radius
 ///   plane     corner, normal                       1, or -1 where the outside is behind
 ///   triangle  corner, corner, corner               the same
+///   patch     corner, corner, corner,              the same, or 0 where the normals tell
+///             normal, normal, normal
 ///   line      base, axis                           radius and height of its start, then of its end
 struct FaceRows {
-    enum Kind : std::uint8_t { sphere, plane, triangle, line };
+    enum Kind : std::uint8_t { sphere, plane, triangle, patch, line };
 
-    std::array<BlockLanes, 4> lanes = {}; ///< by kind
-    std::array<BlockRows, 3> vectors = {};
+    static constexpr std::size_t kinds = 5;
+
+    std::array<BlockLanes, kinds> lanes = {}; ///< by kind
+    std::array<BlockRows, 6> vectors = {};
     std::array<BlockRow, 4> numbers = {};
 };
 
@@ -73,22 +77,28 @@ struct Unusual {
     HWY_INLINE Vec3s normalized(const Vec3s& a) { return a / length(a); }
 };
 
-/// Places, of which the normal is also the one that they are shaded by.
 struct Placed {
     Vec3s point;
     Vec error;
     Vec3s normal;
+    Vec3s shading_normal;
 };
 
 HWY_INLINE void put_placed(
-    PlaceBlock& block, std::size_t lane, const Placed& placed, const Unusual& unusual, Mask of_kind) {
+    PlaceBlock& block,
+    std::size_t lane,
+    const Placed& placed,
+    const Unusual& unusual,
+    Mask of_kind) {
     const Mask known = hn::AndNot(unusual.lanes, of_kind);
     store(chosen(known, placed.point, rows(block.point, lane)), block.point, lane);
     store(
         hn::IfThenElse(known, placed.error, row(block.point_error, lane)), block.point_error, lane);
-    const Vec3s normal = chosen(known, placed.normal, rows(block.geometric_normal, lane));
-    store(normal, block.geometric_normal, lane);
-    store(normal, block.normal, lane);
+    store(
+        chosen(known, placed.normal, rows(block.geometric_normal, lane)),
+        block.geometric_normal,
+        lane);
+    store(chosen(known, placed.shading_normal, rows(block.normal, lane)), block.normal, lane);
 }
 
 HWY_INLINE Vec rounding_of(Vec size) {
@@ -101,22 +111,52 @@ on_spheres(const Vec3s& point, const FaceRows& faces, std::size_t lane, Unusual&
     const Vec radius = row(faces.numbers[0], lane);
     const Vec3s normal = unusual.normalized(point - center);
     const Vec size = hn::Add(largest_component(center), radius);
-    return {center + radius * normal, rounding_of(size), normal};
+    return {center + radius * normal, rounding_of(size), normal, normal};
 }
 
 HWY_INLINE Placed
 on_planes(const Vec3s& point, const Vec3s& corner, const Vec3s& normal, Vec turn) {
     const Vec3s moved = point - dot(point - corner, normal) * normal;
     const Vec size = hn::Max(largest_component(moved), largest_component(corner));
-    return {moved, rounding_of(size), turn * normal};
+    const Vec3s out = turn * normal;
+    return {moved, rounding_of(size), out, out};
+}
+
+struct Triangles {
+    Vec3s corner[3];
+    Vec3s normal;
+};
+
+HWY_INLINE Triangles triangles(const FaceRows& faces, std::size_t lane, Unusual& unusual) {
+    Triangles result = {
+        {rows(faces.vectors[0], lane), rows(faces.vectors[1], lane), rows(faces.vectors[2], lane)},
+        {all(0), all(0), all(0)}};
+    const auto& corner = result.corner;
+    result.normal = unusual.normalized(cross(corner[1] - corner[0], corner[2] - corner[0]));
+    return result;
 }
 
 HWY_INLINE Placed
 on_triangles(const Vec3s& point, const FaceRows& faces, std::size_t lane, Unusual& unusual) {
-    const Vec3s corner = rows(faces.vectors[0], lane);
-    const Vec3s normal = unusual.normalized(
-        cross(rows(faces.vectors[1], lane) - corner, rows(faces.vectors[2], lane) - corner));
-    return on_planes(point, corner, normal, row(faces.numbers[0], lane));
+    const Triangles t = triangles(faces, lane, unusual);
+    return on_planes(point, t.corner[0], t.normal, row(faces.numbers[0], lane));
+}
+
+HWY_INLINE Placed
+on_patches(const Vec3s& point, const FaceRows& faces, std::size_t lane, Unusual& unusual) {
+    const Triangles t = triangles(faces, lane, unusual);
+    const auto weighed = [&](std::size_t from, std::size_t to, std::size_t opposite) HWY_ATTR {
+        const Vec area = dot(t.normal, cross(t.corner[from] - point, t.corner[to] - point));
+        return area * rows(faces.vectors[3 + opposite], lane);
+    };
+    const Vec3s sum = weighed(1, 2, 0) + weighed(2, 0, 1) + weighed(0, 1, 2);
+    const Vec3s shading = unusual.normalized(sum);
+    const Vec by_normals = hn::IfThenElse(hn::Lt(dot(t.normal, shading), all(0)), all(-1), all(1));
+    const Vec turn = row(faces.numbers[0], lane);
+    Placed placed = on_planes(
+        point, t.corner[0], t.normal, hn::IfThenElse(hn::Eq(turn, all(0)), by_normals, turn));
+    placed.shading_normal = shading;
+    return placed;
 }
 
 /// Of a contour: radius and height.
@@ -159,8 +199,7 @@ on_lines(const Vec3s& point, const FaceRows& faces, std::size_t lane, Unusual& u
     const Places whole = end - start;
     const Vec along_line = hn::Div(dot(Places{r, h} - start, whole), dot(whole, whole));
     const Vec v = hn::IfThenElseZero(
-        hn::Gt(along_line, all(0)),
-        hn::IfThenElse(hn::Lt(all(1), along_line), all(1), along_line));
+        hn::Gt(along_line, all(0)), hn::IfThenElse(hn::Lt(all(1), along_line), all(1), along_line));
     const Places inner = chosen(hn::Ge(v, all(1)), end, mix(start, end, v));
     const Places at = chosen(hn::Le(v, all(0)), start, inner);
     const Places mixed = mix(whole, whole, v);
@@ -173,7 +212,7 @@ on_lines(const Vec3s& point, const FaceRows& faces, std::size_t lane, Unusual& u
     const Vec off = dot(Places{r, h} - at, out);
     const Vec3s normal = unusual.normalized(out.r * outwards + out.h * axis);
     const Vec reach = hn::Add(hn::Add(largest_component(base), hn::Abs(at.h)), at.r);
-    return {point - off * normal, hn::Mul(all(4), rounding_of(reach)), normal};
+    return {point - off * normal, hn::Mul(all(4), rounding_of(reach)), normal, normal};
 }
 
 /// Places the points of the block, as rays meet their faces, on these; returns the lanes of faces
@@ -202,6 +241,9 @@ BlockLanes place_on_faces(const FaceRows& faces, PlaceBlock& block) {
         });
         place(FaceRows::triangle, [&](Unusual& unusual) HWY_ATTR {
             return on_triangles(point, faces, lane, unusual);
+        });
+        place(FaceRows::patch, [&](Unusual& unusual) HWY_ATTR {
+            return on_patches(point, faces, lane, unusual);
         });
         place(FaceRows::line, [&](Unusual& unusual) HWY_ATTR {
             return on_lines(point, faces, lane, unusual);
@@ -257,11 +299,21 @@ public:
         }
         case ItemKind::mesh: {
             const Mesh& mesh = geometry.meshes[item.index];
+            const auto corners = corners_of(mesh, element.triangle);
             if (mesh.normals.empty())
-                put_triangle(corners_of(mesh, element.triangle), item.outside);
-            return;
+                return put_triangle(corners, item.outside);
+            const auto& indices =
+                mesh.normal_indices.empty() ? mesh.position_indices : mesh.normal_indices;
+            const std::uint32_t* const three = &indices[3 * std::size_t{element.triangle}];
+            return put_patch(
+                corners,
+                {mesh.normals[three[0]], mesh.normals[three[1]], mesh.normals[three[2]]},
+                item.outside);
         }
-        case ItemKind::patch:
+        case ItemKind::patch: {
+            const Patch& patch = geometry.patches[item.index];
+            return put_patch(patch.corners, patch.normals, item.outside);
+        }
         case ItemKind::subscene_call:
             return;
         }
@@ -279,9 +331,23 @@ private:
 
     void put_triangle(const std::array<Vec3, 3>& corners, Outside outside) {
         is(FaceRows::triangle);
+        put_corners(corners, outside);
+    }
+
+    void put_corners(const std::array<Vec3, 3>& corners, Outside outside) {
         for (std::size_t i = 0; i < 3; ++i)
             put(i, corners[i]);
         put_turn(outside);
+    }
+
+    void put_patch(
+        const std::array<Vec3, 3>& corners, const std::array<Vec3, 3>& normals, Outside outside) {
+        is(FaceRows::patch);
+        put_corners(corners, outside);
+        for (std::size_t i = 0; i < 3; ++i)
+            put(3 + i, normals[i]);
+        if (outside == Outside::by_normal)
+            faces_.numbers[0][lane_] = 0;
     }
 
     void put_line(const RotationalShape& shape, std::uint32_t piece) {
@@ -307,7 +373,9 @@ private:
 std::array<MaterialId, block_size>
 put_surfaces(const Scene& scene, std::span<const MetFace> met, PlaceBlock& block) {
     std::array<MaterialId, block_size> materials = {};
-    FaceRows faces;
+    // Where a lane holds no face of a kind, old numbers are as good as any.
+    thread_local constinit FaceRows faces;
+    faces.lanes = {};
     const Geometry& geometry = scene.geometry;
     for (std::size_t lane = 0; lane < met.size(); ++lane) {
         const Ray& ray = *met[lane].ray;

@@ -18,9 +18,9 @@ struct MetFace {
 };
 
 /// surface_at() of up to block_size hits, to the bit, each put into the lane of its number; returns
-/// the materials. Spheres, plane faces that are shaded as such, and surfaces of rotation of
-/// straight lines are placed together with the others of their kind, those in subscenes and all
-/// other faces one by one.
+/// the materials. Spheres, plane faces, patches and mantles (of straight pieces of a contour) are
+/// placed together with the others of their kind, what lies in subscenes and curved pieces one by
+/// one.
 std::array<MaterialId, block_size>
 put_surfaces(const Scene& scene, std::span<const MetFace> met, PlaceBlock& block);
 
