@@ -3,9 +3,12 @@
 #include "vera/base/diagnostic.h"
 #include "vera/base/version.h"
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <new>
+#include <string_view>
 #include <system_error>
 
 #include "command.h"
@@ -20,6 +23,34 @@ namespace {
 
 using vera::Console;
 using vera::ExitCode;
+
+struct Command {
+    std::string_view name;
+    void (*add)(CLI::App& app, Console& console);
+};
+
+constexpr std::array<Command, 10> commands = {{
+    {"render", vera::add_render_command},
+    {"draw", vera::add_draw_command},
+    {"convert", vera::add_convert_command},
+    {"check", vera::add_check_command},
+    {"info", vera::add_info_command},
+    {"ladder", vera::add_ladder_command},
+    {"explain", vera::add_explain_command},
+    {"make", vera::add_make_command},
+    {"solve", vera::add_solve_command},
+    {"bench", vera::add_bench_command},
+}};
+
+/// Only the command that the first word names, or all where it names none: making the options of
+/// them all takes longer than loading the program.
+void add_commands(CLI::App& app, Console& console, std::string_view first_word) {
+    const auto named = std::ranges::find(commands, first_word, &Command::name);
+    if (named != commands.end())
+        return named->add(app, console);
+    for (const Command& command : commands)
+        command.add(app, console);
+}
 
 ExitCode run(CLI::App& app, Console& console, int argc, char** argv) {
     try {
@@ -76,16 +107,7 @@ int main(int argc, char** argv) {
                "'vera COMMAND --help' tells more of a command.\n"
                "Exit codes: 0 good, 1 the input is wrong, 2 the command line is wrong,\n"
                "3 the machine failed, 130 interrupted.");
-    vera::add_render_command(app, console);
-    vera::add_draw_command(app, console);
-    vera::add_convert_command(app, console);
-    vera::add_check_command(app, console);
-    vera::add_info_command(app, console);
-    vera::add_ladder_command(app, console);
-    vera::add_explain_command(app, console);
-    vera::add_make_command(app, console);
-    vera::add_solve_command(app, console);
-    vera::add_bench_command(app, console);
+    add_commands(app, console, argc > 1 ? argv[1] : "");
     vera::refuse_odd_values(app);
     ExitCode code = run(app, console, argc, argv);
     // What was printed may still be on its way to a disk that is full.

@@ -110,6 +110,23 @@ TEST(ScanNumber, ReadsEveryShortTextAsFromCharsDoes) {
     }
 }
 
+TEST(ScanNumber, EndsBehindAnyCountOfDigitsAtAnyOtherByte) {
+    // More follows, so that eight bytes can be taken at once wherever the number ends.
+    const std::string digits = "98765432101234567890123";
+    for (std::size_t count = 1; count <= digits.size(); ++count)
+        for (int byte = 0; byte < 256; ++byte) {
+            const auto letter = static_cast<char>(byte);
+            // An exponent would belong to it.
+            if ((letter >= '0' && letter <= '9') || letter == 'e' || letter == 'E')
+                continue;
+            const std::string number = "-3." + digits.substr(0, count);
+            const std::string text = number + letter + "1234567812345678";
+            const ScannedNumber read = scanned(text);
+            ASSERT_EQ(read.end, text.data() + number.size()) << count << " digits, byte " << byte;
+            ASSERT_EQ(read.value, std::strtod(number.c_str(), nullptr)) << number;
+        }
+}
+
 TEST(ScanNumber, RoundsHardCasesAsTheCLibraryDoes) {
     for (const char* text :
          {"9007199254740993",

@@ -116,7 +116,8 @@ std::vector<PlaceBlock> blocks_of(const std::vector<Sample>& samples) {
     for (std::size_t i = 0; i < samples.size(); ++i) {
         PlaceBlock& block = blocks[i / block_size];
         const std::size_t lane = i % block_size;
-        put_place(block, lane, samples[i].surface, samples[i].direction, samples[i].material);
+        put_surface(block, lane, samples[i].surface, samples[i].direction);
+        put_material(block, lane, samples[i].material);
         block.lanes |= bit(lane);
         block.refracting |= i % 3 == 0 ? 0 : bit(lane);
     }

@@ -384,7 +384,7 @@ struct ConePlace {
     AxisPlace<hn::Vec<D>> axis;
     hn::Vec<D> per_square;
     hn::Vec<D> middle;
-    hn::Vec<D> breadth;
+    hn::Vec<D> breadth_squared;
     hn::Vec<D> error;     ///< of breadth and of heights, at most
     hn::Mask<D> is_known; ///< the ray runs neither along the axis nor along the cone
 };
@@ -428,19 +428,23 @@ HWY_INLINE ConePlace<D> cone_place(D d, const TestedRays<D>& rays, const hn::Vec
         axis,
         per_square,
         hn::Mul(hn::MulAdd(p, q, axis.middle_by_square), per_square),
-        hn::Sqrt(fused_dot3(breadth, breadth)),
+        fused_dot3(breadth, breadth),
         hn::MulAdd(size, hn::Set(d, 0x1p-17F), hn::Set(d, 4 * rays.double_slack)),
         hn::And(
             hn::Gt(axis.sine_squared, hn::Set(d, 0.01F)),
             hn::Gt(square, hn::Mul(hn::Set(d, 0.25F), axis.sine_squared)))};
 }
 
-/// The rays whose lines may meet the cone of the mantle, and those of which that is not known.
+/// The rays whose lines may meet the cone of the mantle, and those of which that is not known:
+/// those for which breadth + error >= apart, and maybe a few more. The root that breadth is would
+/// have to be waited for.
 template <typename D>
 HWY_INLINE hn::Mask<D> may_meet_cone(D d, const TestedRays<D>& rays, const hn::Vec<D>* values) {
     const auto place = cone_place(d, rays, values);
-    const auto reach = hn::Add(place.breadth, place.error);
-    return hn::Or(hn::Ge(reach, place.axis.apart), hn::Not(place.is_known));
+    const auto beyond = hn::Max(hn::Sub(place.axis.apart, place.error), hn::Zero(d));
+    const auto outside =
+        hn::Gt(hn::Mul(beyond, beyond), hn::Mul(place.breadth_squared, hn::Set(d, up * up)));
+    return hn::Not(hn::And(outside, place.is_known));
 }
 
 /// A ray meets a mantle where it enters the whole cone between the heights of the mantle's ends, or
@@ -453,11 +457,12 @@ HWY_INLINE Meeting<D> meeting_mantle(D d, const TestedRays<D>& rays, const hn::V
     const V margin = place.error;
 
     // Half the length of the line within the cone lies between these two.
-    const V inner = hn::Sub(place.breadth, margin);
-    const V outer = hn::Add(place.breadth, margin);
+    const V breadth = hn::Sqrt(place.breadth_squared);
+    const V inner = hn::Sub(breadth, margin);
+    const V outer = hn::Add(breadth, margin);
     const V apart_squared = hn::Mul(place.axis.apart, place.axis.apart);
-    const auto half_length = [&](V breadth) HWY_ATTR {
-        const V squared = hn::Sub(hn::Mul(breadth, breadth), apart_squared);
+    const auto half_length = [&](V reach) HWY_ATTR {
+        const V squared = hn::Sub(hn::Mul(reach, reach), apart_squared);
         return hn::Mul(hn::Sqrt(hn::Max(zero, squared)), place.per_square);
     };
     const V shorter = half_length(inner);

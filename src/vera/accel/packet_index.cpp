@@ -28,10 +28,8 @@ void start(
     query.geometries = searched.geometries;
     query.recorder = searched.recorder;
     query.purpose = purpose;
-    query.rays = rays;
     query.active = ~LaneMask{0} >> (std::numeric_limits<LaneMask>::digits - rays.size());
-    for (std::size_t lane = 0; lane < rays.size(); ++lane)
-        query.limit[lane] = rays[lane].ray.t_max;
+    take_rays(query, rays);
     query.reach.fill(0);
 }
 
@@ -66,6 +64,13 @@ void take_hits(PacketQuery& query, const SearchedScene& searched, std::span<Hit>
 
 void take_transmitted(PacketQuery& query, std::span<Color> transmitted) {
     decide_main_scene(query);
+    if (query.purpose == Purpose::any) {
+        for (std::size_t lane = 0; lane < query.rays.size(); ++lane) {
+            const double part = (query.active >> lane & 1U) != 0 ? 1 : 0;
+            transmitted[lane] = {part, part, part};
+        }
+        return;
+    }
     for (std::size_t lane = 0; lane < query.rays.size(); ++lane)
         transmitted[lane] = query.transmittance[lane].transmitted();
 }
@@ -108,11 +113,9 @@ void find_nearest_hits(
     VERA_CHECK(rays.size() == hits.size());
     const auto begin = [&](PacketQuery& query, std::span<const QueryRay> packet) {
         start(query, searched, packet, Purpose::nearest);
-        for (std::size_t lane = 0; lane < packet.size(); ++lane) {
-            const double reach = coincidence_reach(packet[lane].ray);
-            query.reach[lane] = std::max(reach, 0.0);
-            query.nearest[lane].start(reach);
-        }
+        find_reaches(query);
+        for (std::size_t lane = 0; lane < packet.size(); ++lane)
+            query.nearest[lane].start(query.reach[lane]);
     };
     const auto finish = [&](PacketQuery& query, std::size_t first) {
         take_hits(query, searched, hits.subspan(first, query.rays.size()));
@@ -129,8 +132,9 @@ void find_transmittances(
     const Purpose purpose = searched.opaque ? Purpose::any : Purpose::transmittance;
     const auto begin = [&](PacketQuery& query, std::span<const QueryRay> packet) {
         start(query, searched, packet, purpose);
-        for (std::size_t lane = 0; lane < packet.size(); ++lane)
-            query.transmittance[lane].clear();
+        if (purpose == Purpose::transmittance)
+            for (std::size_t lane = 0; lane < packet.size(); ++lane)
+                query.transmittance[lane].clear();
     };
     const auto finish = [&](PacketQuery& query, std::size_t first) {
         take_transmitted(query, transmitted.subspan(first, query.rays.size()));

@@ -73,24 +73,27 @@ void start_frame(
     frame.first_primitive = first_primitive;
 }
 
-void set_start_element(const PacketQuery& query, Frame& frame, std::size_t lane) {
-    const FaceId& face = query.rays[lane].start;
-    frame.start_element[lane] = no_element;
-    if (face.primitive == no_primitive)
-        return;
-    const std::uint64_t start = face.primitive - frame.first_primitive;
+void set_start_elements(const PacketQuery& query, Frame& frame) {
     const Geometry& geometry = *frame.local->geometry;
-    frame.start_element[lane] = start >= geometry.primitive_count || face.piece == no_piece
-        ? no_element
-        : geometry.calls.empty() ? static_cast<std::uint32_t>(start)
-                                 : element_of(geometry, start);
+    for (std::size_t lane = 0; lane < query.rays.size(); ++lane) {
+        const FaceId& face = query.rays[lane].start;
+        const std::uint64_t start = face.primitive - frame.first_primitive; // large for none
+        const bool is_here = start < geometry.primitive_count && face.piece != no_piece;
+        frame.start_element[lane] = is_here ? static_cast<std::uint32_t>(start) : no_element;
+    }
+    if (geometry.calls.empty())
+        return;
+    for (std::size_t lane = 0; lane < query.rays.size(); ++lane)
+        if (frame.start_element[lane] != no_element)
+            frame.start_element[lane] =
+                element_of(geometry, query.rays[lane].start.primitive - frame.first_primitive);
 }
 
 /// Completes a frame whose rays were filled in; returns the lanes that touch the bounds.
 LaneMask entering(PacketQuery& query, Frame& frame, LaneMask lanes) {
     const LaneMask touching = place_rays(frame, lanes, query.limit, query.reach, query.local_start);
-    for (LaneMask rest = touching; rest != 0; rest &= rest - 1)
-        set_start_element(query, frame, static_cast<std::size_t>(std::countr_zero(rest)));
+    if (touching != 0)
+        set_start_elements(query, frame);
     return touching;
 }
 
@@ -136,7 +139,6 @@ bool take_crossing(
         query.window[lane].add(t, face);
         return false;
     case Purpose::any:
-        query.transmittance[lane].block();
         break;
     case Purpose::transmittance:
         query.transmittance[lane].add(t, face, transmission(*query.scene, material));
@@ -171,16 +173,26 @@ void Mailbox::grow() {
             post(entry.visit, entry.element, entry.lanes);
 }
 
+void take_rays(PacketQuery& query, std::span<const QueryRay> rays) {
+    RayRows& rows = frame_at(query, 0).rays;
+    query.rays = rays;
+    fill_rows(rays, rows);
+    query.limit = rows.t_max;
+}
+
+void find_reaches(PacketQuery& query) {
+    fill_reaches(query.frames.front().rays, query.reach);
+}
+
 LaneMask enter_scene(PacketQuery& query) {
     const LocalGeometry& local = *query.geometries.front();
-    Frame& frame = frame_at(query, 0);
+    Frame& frame = query.frames.front();
     frame.candidates.count = 0;
     if (local.bounds.empty())
         return 0;
     start_frame(query, frame, local, 0);
     frame.depth = 0;
     frame.material = inherited_material;
-    fill_rows(query.rays, frame.rays);
     return entering(query, frame, query.active);
 }
 
@@ -557,7 +569,8 @@ bool ends_search(const PacketQuery& query, const Frame& frame, std::uint32_t ele
 void block(PacketQuery& query, Frame& frame, LaneMask lanes) {
     for (LaneMask rest = lanes; rest != 0; rest &= rest - 1) {
         const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-        query.transmittance[lane].block();
+        if (query.purpose == Purpose::transmittance)
+            query.transmittance[lane].block();
         query.limit[lane] = -std::numeric_limits<double>::infinity();
         frame.limit[lane] = static_cast<float>(-farthest);
     }

@@ -126,6 +126,9 @@ constexpr double least_slack = 0x1p-18;
 /// Writes the rays row by row.
 void fill_rows(std::span<const QueryRay> rays, RayRows& rows);
 
+/// coincidence_reach() of each ray, to the bit.
+void fill_reaches(const RayRows& rays, RayRows::Row& reaches);
+
 /// Where rays start in local coordinates: where they enter the bounds, or, which is done faster, at
 /// their origins if these are near.
 enum class LocalStart : std::uint8_t { in_bounds, near_bounds };
@@ -196,7 +199,7 @@ private:
 enum class Purpose : std::uint8_t {
     nearest,      ///< the first face
     window,       ///< the first face, when it is known where to stop
-    any,          ///< whether there is one
+    any,          ///< whether there is one: then the lane is not active any more
     transmittance ///< what they let through
 };
 
@@ -213,7 +216,7 @@ struct PacketQuery {
     LaneMask active = 0;       ///< lanes that have no final answer
     std::uint32_t changes = 0; ///< how often a limit or active has changed
     RayRows::Row limit;        ///< crossings at a greater t do not count
-    RayRows::Row reach;        ///< coincidence_reach(); 0 where it does not matter
+    RayRows::Row reach;        ///< coincidence_reach(); at most 0 where it does not matter
     std::array<NearestSearch, packet_size> nearest;
     std::vector<WindowSearch> window;
     std::array<TransmittanceSearch, packet_size> transmittance;
@@ -222,6 +225,12 @@ struct PacketQuery {
     std::deque<Frame> frames;         ///< by depth of subscenes
     WalkRecorder* recorder = nullptr; ///< whom a plain walk tells its steps; no search does
 };
+
+/// Writes the rays row by row into the frame of the main scene, and sets the limits to their ends.
+void take_rays(PacketQuery& query, std::span<const QueryRay> rays);
+
+/// Finds the reaches of the rays that were taken.
+void find_reaches(PacketQuery& query);
 
 /// Prepares the frame of the main scene; returns the lanes that touch its bounds.
 LaneMask enter_scene(PacketQuery& query);

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #undef HWY_TARGET_INCLUDE
@@ -189,8 +190,9 @@ HWY_INLINE void place_part(
     const auto counted_slack = hn::IfThenElseZero(counts, rays.slack);
     placed.slack = std::max(placed.slack, hn::GetLane(hn::MaxOfLanes(d, counted_slack)));
     // Twice coincidence_tolerance(), as a local distance.
-    const auto reach =
-        hn::Add(row(world_reach, lane), hn::Abs(hn::LoadU(d, frame.start_t.data() + lane)));
+    const auto reach = hn::Add(
+        hn::Max(row(world_reach, lane), hn::Zero(d)),
+        hn::Abs(hn::LoadU(d, frame.start_t.data() + lane)));
     const auto behind =
         hn::MulAdd(hn::Mul(reach, rays.speed), all(0x1p-40), all(0x1p-40 * farthest));
     placed.behind =
@@ -265,6 +267,28 @@ void fill_rows_kernel(std::span<const QueryRay> rays, RayRows& rows) {
     }
 }
 
+/// The largest component of abs() of the vectors, as max_component() finds it.
+HWY_INLINE Vec largest(const std::array<RayRows::Row, 3>& vectors, std::size_t lane) {
+    const Vec x = hn::Abs(row(vectors[0], lane));
+    const Vec y = hn::Abs(row(vectors[1], lane));
+    const Vec z = hn::Abs(row(vectors[2], lane));
+    const Vec larger = hn::IfThenElse(hn::Gt(x, y), x, y);
+    return hn::IfThenElse(hn::Gt(larger, z), larger, z);
+}
+
+void fill_reaches_kernel(const RayRows& rays, RayRows::Row& reaches) {
+    const Doubles d;
+    for (std::size_t lane = 0; lane < packet_size; lane += hn::Lanes(d)) {
+        const Vec direction_size = largest(rays.direction, lane);
+        const Vec origin_size = hn::Add(largest(rays.origin, lane), row(rays.origin_error, lane));
+        const Vec reach = hn::IfThenElse(
+            hn::Gt(direction_size, hn::Zero(d)),
+            hn::Div(origin_size, direction_size),
+            all(-std::numeric_limits<double>::infinity()));
+        hn::StoreU(reach, d, reaches.data() + lane);
+    }
+}
+
 void transform_rays_kernel(const Affine3& map, const RayRows& rays, RayRows& result) {
     const Doubles d;
     for (std::size_t lane = 0; lane < packet_size; lane += hn::Lanes(d)) {
@@ -317,9 +341,14 @@ namespace vera::detail {
 HWY_EXPORT(place_rays_kernel);
 HWY_EXPORT(transform_rays_kernel);
 HWY_EXPORT(fill_rows_kernel);
+HWY_EXPORT(fill_reaches_kernel);
 
 void fill_rows(std::span<const QueryRay> rays, RayRows& rows) {
     HWY_DYNAMIC_DISPATCH(fill_rows_kernel)(rays, rows);
+}
+
+void fill_reaches(const RayRows& rays, RayRows::Row& reaches) {
+    HWY_DYNAMIC_DISPATCH(fill_reaches_kernel)(rays, reaches);
 }
 
 LaneMask place_rays(

@@ -154,7 +154,7 @@ HWY_INLINE void values_of_one(
 
 /// How the lanes' rays meet element i of a block of the kind.
 template <ElementRecord::Kind OfKind>
-HWY_NOINLINE void meet_element(
+HWY_INLINE void meet_element(
     const BlockRow* rows,
     std::size_t i,
     const Frame& frame,
@@ -193,13 +193,20 @@ HWY_NOINLINE void meet_block(
     }
 }
 
-/// Calls action(the kind as a constant), for all kinds but triangles.
+/// Of a call is asked whether its box is met.
+constexpr ElementRecord::Kind tested_as(ElementRecord::Kind kind) {
+    return kind == ElementRecord::Kind::call ? ElementRecord::Kind::box : kind;
+}
+
+/// Calls action(the kind as a constant).
 template <typename Action>
-HWY_INLINE void for_other_kind(ElementRecord::Kind kind, const Action& action) {
+HWY_INLINE void for_kind(ElementRecord::Kind kind, const Action& action) {
     using Kind = ElementRecord::Kind;
     switch (kind) {
     case Kind::sphere:
         return action(std::integral_constant<Kind, Kind::sphere>());
+    case Kind::triangle:
+        return action(std::integral_constant<Kind, Kind::triangle>());
     case Kind::quadrangle:
         return action(std::integral_constant<Kind, Kind::quadrangle>());
     case Kind::mantle:
@@ -207,10 +214,9 @@ HWY_INLINE void for_other_kind(ElementRecord::Kind kind, const Action& action) {
     case Kind::cylinder:
         return action(std::integral_constant<Kind, Kind::cylinder>());
     case Kind::box:
-    case Kind::call: // of which is asked the same
         return action(std::integral_constant<Kind, Kind::box>());
-    case Kind::triangle:
-        break;
+    case Kind::call:
+        return action(std::integral_constant<Kind, Kind::call>());
     }
 }
 
@@ -285,8 +291,9 @@ HWY_INLINE void copy(const std::array<float, packet_size>& from, FloatRow& to) {
         hn::StoreU(hn::LoadU(d, from.data() + i), d, to.data() + i);
 }
 
-/// Takes what is known of how the lanes' rays meet element i, which is not a call.
-inline void take_met(
+/// Takes what is known of how the lanes' rays meet element i, which some may and which is not a
+/// call.
+inline HWY_NOINLINE void take_met(
     PacketQuery& query,
     Frame& frame,
     const BlockRow* rows,
@@ -295,8 +302,6 @@ inline void take_met(
     LaneMask lanes,
     const MetRows<packet_size>& met) {
     LaneMask may = met.may & lanes;
-    if (may == 0)
-        return;
     const std::uint32_t element = element_number(rows, i);
     const LaneMask starting = starting_on(frame, element);
     if ((may & starting) != 0)
@@ -317,29 +322,62 @@ inline void take_met(
     add_candidate(frame, kind, element, may);
 }
 
-/// What the lanes' rays do at a block.
-inline void visit_block(PacketQuery& query, Frame& frame, const TreeChild& child, LaneMask lanes) {
-    const BlockRow* const rows = tree_of(frame).rows.data() + child.first();
-    const ElementRecord::Kind kind = element_kind(child);
-    BlockTriangles triangles;
-    if (kind == ElementRecord::Kind::triangle)
-        triangles = block_triangles(rows);
-    for (std::size_t i = 0; i < child.count() && lanes != 0; ++i) {
+/// What the lanes' rays do at the elements of a block of the kind: meet(i, lanes, met) tells how
+/// they meet element i.
+template <ElementRecord::Kind OfKind, typename Meet>
+HWY_INLINE void visit_elements(
+    PacketQuery& query,
+    Frame& frame,
+    const BlockRow* rows,
+    std::size_t count,
+    LaneMask lanes,
+    const Meet& meet) {
+    for (std::size_t i = 0; i < count && lanes != 0; ++i) {
         MetRows<packet_size> met;
-        if (kind == ElementRecord::Kind::triangle)
-            meet_triangle(triangles, i, frame, lanes, met);
-        else
-            for_other_kind(kind, [&](auto constant) {
-                meet_element<constant.value>(rows, i, frame, lanes, met);
-            });
-        if (kind == ElementRecord::Kind::call) {
+        meet(i, lanes, met);
+        if constexpr (OfKind == ElementRecord::Kind::call) {
             visit_call(query, frame, element_number(rows, i), met.may & lanes);
         } else {
             query.counts.tests += static_cast<std::uint64_t>(std::popcount(lanes));
-            take_met(query, frame, rows, kind, i, lanes, met);
+            if ((met.may & lanes) != 0)
+                take_met(query, frame, rows, OfKind, i, lanes, met);
         }
         lanes &= query.active;
     }
+}
+
+template <ElementRecord::Kind OfKind>
+HWY_NOINLINE void visit_block_of(
+    PacketQuery& query, Frame& frame, const BlockRow* rows, std::size_t count, LaneMask lanes) {
+    if constexpr (OfKind == ElementRecord::Kind::triangle) {
+        const BlockTriangles triangles = block_triangles(rows);
+        visit_elements<OfKind>(
+            query,
+            frame,
+            rows,
+            count,
+            lanes,
+            [&](std::size_t i, LaneMask those, MetRows<packet_size>& met)
+                HWY_ATTR { meet_triangle(triangles, i, frame, those, met); });
+    } else {
+        visit_elements<OfKind>(
+            query,
+            frame,
+            rows,
+            count,
+            lanes,
+            [&](std::size_t i, LaneMask those, MetRows<packet_size>& met)
+                HWY_ATTR { meet_element<tested_as(OfKind)>(rows, i, frame, those, met); });
+    }
+}
+
+/// What the lanes' rays do at a block.
+HWY_INLINE void
+visit_block(PacketQuery& query, Frame& frame, const TreeChild& child, LaneMask lanes) {
+    const BlockRow* const rows = tree_of(frame).rows.data() + child.first();
+    for_kind(element_kind(child), [&](auto constant) HWY_ATTR {
+        visit_block_of<constant.value>(query, frame, rows, child.count(), lanes);
+    });
 }
 
 /// Takes what is known of how one lane's ray meets element i, which it may and which is not a call.
@@ -371,25 +409,13 @@ inline void take_met_alone(
 /// What one lane's ray does at a block.
 inline void
 visit_block_alone(PacketQuery& query, Frame& frame, const TreeChild& child, std::size_t lane) {
-    const Elements d;
     const BlockRow* const rows = tree_of(frame).rows.data() + child.first();
     const ElementRecord::Kind kind = element_kind(child);
     const std::uint32_t present = (std::uint32_t{1} << child.count()) - 1;
     MetRows<block_width> met;
-    if (kind == ElementRecord::Kind::triangle) {
-        const auto ray = one_ray(d, frame, lane);
-        for (std::size_t i = 0; i < block_width; i += hn::Lanes(d)) {
-            hn::Vec<Elements> values[triangle_values];
-            for (std::size_t j = 0; j < triangle_values; ++j)
-                values[j] = hn::LoadU(d, rows[1 + j].data() + i);
-            take_meeting(
-                d, meeting_face(d, ray, triangle_place(d, ray, face_of(d, values))), i, met);
-        }
-    } else {
-        for_other_kind(kind, [&](auto constant) {
-            meet_block<constant.value>(rows, present, frame, lane, met);
-        });
-    }
+    for_kind(kind, [&](auto constant) HWY_ATTR {
+        meet_block<tested_as(constant.value)>(rows, present, frame, lane, met);
+    });
     if (kind != ElementRecord::Kind::call)
         query.counts.tests += child.count();
     for (std::uint32_t may = met.may & present; may != 0; may &= may - 1) {

@@ -207,18 +207,19 @@ void search_together(
     WaitingTogether* const stack = frame.waiting_together.data();
     std::size_t size = 0;
     std::size_t turn = 0;
-    const auto leave = [&](const WaitingTogether& left) {
+    const auto leave = [&](TreeChild child, LaneMask for_lanes) {
         StreamStack& later = streams.all[turn % octant_count].stack;
         if (later.size == tree_width)
             return false;
-        later.push(left.child, left.lanes);
+        later.push(child, for_lanes);
         ++turn;
         return true;
     };
-    WaitingTogether next = {TreeChild::node(0), lanes, 0};
+    TreeChild child = TreeChild::node(0);
+    LaneMask child_lanes = lanes;
     while (true) {
-        if (next.child.is_block() != 0) {
-            visit_block(query, frame, next.child, next.lanes);
+        if (child.is_block() != 0) {
+            visit_block(query, frame, child, child_lanes);
             if ((lanes & ~query.active) != 0) {
                 lanes &= query.active;
                 if (lanes == 0)
@@ -226,21 +227,22 @@ void search_together(
                 beam = beam_of(frame, octant, lanes);
             }
             limit = largest_limit(frame, lanes);
-        } else if (std::popcount(next.lanes) > few_lanes || !leave(next)) {
-            query.counts.cells += static_cast<std::uint64_t>(std::popcount(next.lanes));
+        } else if (std::popcount(child_lanes) > few_lanes || !leave(child, child_lanes)) {
+            query.counts.cells += static_cast<std::uint64_t>(std::popcount(child_lanes));
             const std::size_t count = put_children(
                 tree,
-                tree.nodes[next.child.first()],
+                tree.nodes[child.first()],
                 frame,
                 rays,
                 beam,
                 octant,
                 limit,
-                next.lanes,
+                child_lanes,
                 stack + size);
             if (count > 0) {
                 size += count - 1;
-                next = stack[size];
+                child = stack[size].child;
+                child_lanes = stack[size].lanes;
                 continue;
             }
         }
@@ -249,9 +251,10 @@ void search_together(
                 lanes = 0;
                 break;
             }
-            next = stack[--size];
-            next.lanes &= lanes & reaching(frame, next.near);
-        } while (next.lanes == 0);
+            --size;
+            child = stack[size].child;
+            child_lanes = stack[size].lanes & lanes & reaching(frame, stack[size].near);
+        } while (child_lanes == 0);
         if (lanes == 0)
             break;
     }

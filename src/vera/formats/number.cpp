@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
-#include <optional>
 
 namespace vera {
 
@@ -82,24 +81,40 @@ Decimal scan_decimal(const char* begin, const char* end) {
     return decimal;
 }
 
-/// The value of eight digits, or nothing when not all eight bytes are digits.
-std::optional<std::uint64_t> eight_digits(const char* p) {
+/// The digits at the beginning of eight bytes.
+struct FewDigits {
+    std::uint64_t value = 0;
+    unsigned count = 0;
+};
+
+/// All at once: how many there are is hard to guess for a processor that branches at each.
+FewDigits few_digits(const char* p) {
     std::uint64_t bytes = 0;
     std::memcpy(&bytes, p, 8);
     if constexpr (std::endian::native == std::endian::big)
-        return std::nullopt;
-    // Digits are 0x30 to 0x39: their upper half is 3, also when 6 is added.
-    constexpr std::uint64_t upper_halves = 0xf0f0'f0f0'f0f0'f0f0;
+        bytes = __builtin_bswap64(bytes);
+    // Digits are 0x30 to 0x39, without threes 0 to 9. Adding sets the highest bit of what is more;
+    // what it carries goes to later bytes only.
     constexpr std::uint64_t threes = 0x3030'3030'3030'3030;
-    constexpr std::uint64_t sixes = 0x0606'0606'0606'0606;
-    if ((bytes & upper_halves) != threes || ((bytes + sixes) & upper_halves) != threes)
-        return std::nullopt;
-    // Neighbours are put together: digits to pairs, pairs to fours, fours to the whole.
-    bytes -= threes;
+    constexpr std::uint64_t highest_bits = 0x8080'8080'8080'8080;
+    constexpr std::uint64_t above_nine = 0x7676'7676'7676'7676;
+    bytes ^= threes;
+    const std::uint64_t others = ((bytes + above_nine) | bytes) & highest_bits;
+    FewDigits digits;
+    digits.count = static_cast<unsigned>(std::countr_zero(others)) / 8;
+    if (digits.count == 0)
+        return digits;
+    // Zeros before them make them eight. Neighbours are put together: digits to pairs, pairs to
+    // fours, fours to the whole.
+    bytes <<= 8 * (8 - digits.count);
     bytes = (10 * bytes + (bytes >> 8U)) & 0x00ff'00ff'00ff'00ffU;
     bytes = (100 * bytes + (bytes >> 16U)) & 0x0000'ffff'0000'ffffU;
-    return (10'000 * bytes + (bytes >> 32U)) & 0xffff'ffffU;
+    digits.value = (10'000 * bytes + (bytes >> 32U)) & 0xffff'ffffU;
+    return digits;
 }
+
+constexpr std::array<std::uint64_t, 9> whole_powers_of_ten = {
+    1, 10, 100, 1'000, 10'000, 100'000, 1'000'000, 10'000'000, 100'000'000};
 
 /// Numbers of any length and size.
 ScannedNumber scan_any_number(const char* begin, const char* end) {
@@ -155,11 +170,12 @@ ScannedNumber detail::scan_longer_number(const char* begin, const char* end) {
     std::size_t places = 0;
     if (p != end && *p == '.') {
         const char* const fraction = ++p;
-        for (; end - p >= 8; p += 8) {
-            const auto eight = eight_digits(p);
-            if (!eight)
+        while (end - p >= 8) {
+            const FewDigits few = few_digits(p);
+            digits = whole_powers_of_ten[few.count] * digits + few.value;
+            p += few.count;
+            if (few.count < 8)
                 break;
-            digits = 100'000'000 * digits + *eight;
         }
         for (; p != end && is_digit(*p); ++p)
             digits = 10 * digits + static_cast<std::uint64_t>(*p - '0');

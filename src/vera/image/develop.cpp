@@ -20,9 +20,10 @@ Sample integer_sample(double value) {
     constexpr double largest = std::numeric_limits<Sample>::max();
     const double positive = value > 0 ? value : 0;
     const double scaled = largest * (positive < 1 ? positive : 1);
-    const auto whole = static_cast<std::int32_t>(scaled);
-    // The difference is exact, and so the comparison decides as the definition does.
-    return static_cast<Sample>(whole + (scaled - whole >= 0.5 ? 1 : 0));
+    // The sum with the largest number below a half reaches a whole number only from a half on: it
+    // rounds up to it from there, and from no number below, which is farther off.
+    constexpr double almost_half = 0x1.fffffffffffffp-2;
+    return static_cast<Sample>(static_cast<std::int32_t>(scaled + almost_half));
 }
 
 /// The sRGB curve at a fraction of the time that srgb_decoded takes, to the same float.
@@ -92,13 +93,16 @@ void develop(std::span<const Color> colors, Image& image, std::size_t x, std::si
         [&](auto& samples) {
             using Sample = typename std::decay_t<decltype(samples)>::value_type;
             Sample* sample = samples.data() + 3 * (y * image.width + x);
-            const FloatDecoder& decoder = float_decoder();
-            for (const Color& color : colors)
-                for (const double value : {color.r, color.g, color.b})
-                    if constexpr (std::is_same_v<Sample, float>)
-                        *sample++ = decoder.decoded(value);
-                    else
-                        *sample++ = integer_sample<Sample>(value);
+            const auto write = [&](const auto& developed) {
+                for (const Color& color : colors)
+                    for (const double value : {color.r, color.g, color.b})
+                        *sample++ = developed(value);
+            };
+            if constexpr (std::is_same_v<Sample, float>)
+                write(
+                    [&decoder = float_decoder()](double value) { return decoder.decoded(value); });
+            else
+                write(integer_sample<Sample>);
         },
         image.samples);
 }

@@ -3,8 +3,10 @@
 
 #include "vera/render/long_generations.h"
 #include "vera/shade/firmament.h"
+#include "vera/shade/surface_blocks.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 
 namespace vera {
@@ -89,7 +91,15 @@ void GenerationTracer::shade(
             work,
             rays.subspan(first, count),
             part_hits,
-            [&](std::size_t i) -> const SurfacePoint& { return at[first + i]; },
+            [&](std::span<const Place> places, PlaceBlock& block) {
+                std::array<MaterialId, block_size> materials = {};
+                for (std::size_t lane = 0; lane < places.size(); ++lane) {
+                    const std::size_t ray = first + places[lane].ray;
+                    put_surface(block, lane, at[ray], rays[ray].ray.direction);
+                    materials[lane] = at[ray].material;
+                }
+                return materials;
+            },
             part_colors);
         shade_places(1, part_colors);
     }
@@ -113,17 +123,24 @@ void GenerationTracer::trace_part(
         work,
         rays,
         work.hits,
-        [&](std::size_t i) { return surface_at(traced_.scene, rays[i].ray, work.hits[i]); },
+        [&](std::span<const Place> places, PlaceBlock& block) {
+            std::array<MetFace, block_size> met;
+            for (std::size_t lane = 0; lane < places.size(); ++lane) {
+                const std::uint32_t ray = places[lane].ray;
+                met[lane] = {&rays[ray].ray, &work.hits[ray]};
+            }
+            return put_surfaces(traced_.scene, std::span(met).first(places.size()), block);
+        },
         colors);
     shade_places(level, colors);
 }
 
-template <typename SurfaceOf>
+template <typename PutSurfaces>
 void GenerationTracer::find_places(
     Level& level,
     std::span<const QueryRay> rays,
     std::span<const Hit> hits,
-    const SurfaceOf& surface_of,
+    const PutSurfaces& put_surfaces_of,
     std::span<Color> colors) {
     level.places.resize(rays.size());
     std::size_t count = 0;
@@ -144,21 +161,23 @@ void GenerationTracer::find_places(
         }
     });
     for_each_range(level.blocks.size(), blocks_of_range, [&](std::size_t first, std::size_t last) {
-        const std::size_t end = std::min(last * block_size, count);
-        for (std::size_t i = first * block_size; i < end; ++i) {
-            Place& place = level.places[i];
-            const SurfacePoint& surface = surface_of(place.ray);
-            const auto number = static_cast<std::size_t>(surface.material);
-            const Look& look = number < looks_.size() ? looks_[number] : looks_.back();
-            place.face = hits[place.ray].face;
-            place.look = &look;
-            PlaceBlock& block = level.blocks[block_of(i)];
-            const std::size_t lane = lane_of(i);
-            if (lane == 0)
-                block.lanes = block.refracting = 0;
-            put_place(block, lane, surface, rays[place.ray].ray.direction, *look.material);
-            block.lanes |= lane_bit(lane);
-            block.refracting |= BlockLanes{look.refracts} << lane;
+        for (std::size_t i = first; i < last; ++i) {
+            const std::size_t first_place = i * block_size;
+            const std::span<Place> places =
+                std::span(level.places)
+                    .subspan(first_place, std::min(block_size, count - first_place));
+            PlaceBlock& block = level.blocks[i];
+            const std::array<MaterialId, block_size> materials = put_surfaces_of(places, block);
+            block.lanes = (BlockLanes{1} << places.size()) - 1;
+            block.refracting = 0;
+            for (std::size_t lane = 0; lane < places.size(); ++lane) {
+                Place& place = places[lane];
+                const auto number = static_cast<std::size_t>(materials[lane]);
+                place.look = number < looks_.size() ? &looks_[number] : &looks_.back();
+                place.face = hits[place.ray].face;
+                put_material(block, lane, *place.look->material);
+                block.refracting |= BlockLanes{place.look->refracts} << lane;
+            }
         }
         turn_to_viewer(std::span(level.blocks).subspan(first, last - first));
     });

@@ -131,12 +131,14 @@ private:
     };
 
     void trace_part(std::uint32_t level, std::span<const QueryRay> rays, std::span<Color> colors);
-    template <typename SurfaceOf>
+    /// put_surfaces_of(places, block) puts up to block_size places into a block, and returns their
+    /// materials.
+    template <typename PutSurfaces>
     void find_places(
         Level& level,
         std::span<const QueryRay> rays,
         std::span<const Hit> hits,
-        const SurfaceOf& surface_of,
+        const PutSurfaces& put_surfaces_of,
         std::span<Color> colors);
     void shade_places(std::uint32_t level, std::span<Color> colors);
     void light_places(Level& level, std::size_t light);

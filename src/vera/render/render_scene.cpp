@@ -4,6 +4,7 @@
 #include "vera/base/available_memory.h"
 #include "vera/image/develop.h"
 #include "vera/render/antialiasing.h"
+#include "vera/render/center_rays.h"
 #include "vera/render/generations.h"
 #include "vera/render/raster.h"
 #include "vera/render/tiles.h"
@@ -24,28 +25,13 @@ constexpr std::size_t usual_tile_side = 32;
 /// What a thread needs for the tiles that it renders, one after another.
 struct TileWork {
     GenerationTracer tracer;
+    CenterRays center_rays;
     std::vector<QueryRay> rays;
     std::vector<Color> colors;
 };
 
-/// The rays through the centres of the tile's pixels.
-void find_center_rays(const Raster& raster, const Tile& tile, std::vector<QueryRay>& rays) {
-    std::vector<Vec3> columns(tile.width);
-    std::vector<Vec3> rows(tile.height);
-    for (std::size_t x = 0; x < tile.width; ++x)
-        columns[x] = raster.rays.place_across(raster.across(static_cast<double>(tile.x + x)));
-    for (std::size_t y = 0; y < tile.height; ++y)
-        rows[y] = raster.rays.place_up(raster.down(static_cast<double>(tile.y + y)));
-
-    rays.resize(tile.width * tile.height);
-    QueryRay* ray = rays.data();
-    for_each_pixel(tile, [&](std::size_t x, std::size_t y) {
-        (ray++)->ray = raster.rays.ray(columns[x - tile.x], rows[y - tile.y]);
-    });
-}
-
 void render_tile(const Raster& raster, const Tile& tile, TileWork& work, Image& image) {
-    find_center_rays(raster, tile, work.rays);
+    work.center_rays.find(raster, tile, work.rays);
     work.colors.resize(work.rays.size());
     work.tracer.trace(work.rays, work.colors);
     work.tracer.statistics.view_rays += work.rays.size();
@@ -65,7 +51,7 @@ render_centers(const TracedScene& traced, const Raster& raster, Image& image, Pr
         raster.height,
         tile_side(usual_tile_side, traced.generation_size, raster.width, raster.height)};
     Workspaces<TileWork> workspaces([&] {
-        return std::make_unique<TileWork>(TileWork{GenerationTracer(traced), {}, {}});
+        return std::make_unique<TileWork>(TileWork{GenerationTracer(traced), {}, {}, {}});
     });
     parallel_ranges(tiling.count(), 1, [&](std::size_t first, std::size_t last) {
         workspaces.lend([&](TileWork& work) {

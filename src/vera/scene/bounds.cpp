@@ -42,8 +42,11 @@ Box3 bounds(const RotationalShape& shape) {
             double farthest = extent_of(shape.start);
             ContourPiece::Point from = shape.start;
             for (const ContourPiece& piece : shape.contour) {
-                const double v = farthest_parameter(piece, from, direction);
-                farthest = std::max(farthest, extent_of(point_at(piece, from, v)));
+                farthest = std::max(farthest, extent_of(piece.end));
+                if (piece.kind != ContourPiece::Kind::line) {
+                    const double v = farthest_parameter(piece, from, direction);
+                    farthest = std::max(farthest, extent_of(point_at(piece, from, v)));
+                }
                 from = piece.end;
             }
             return farthest;

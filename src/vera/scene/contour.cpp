@@ -178,4 +178,9 @@ double nearest_parameter(const ContourPiece& piece, Point start, Point point) {
     return bracketed_zero(low, low_value, high, high_value, ahead);
 }
 
+PlaceOnPiece nearest_place(const ContourPiece& piece, Point start, Point point) {
+    const double v = nearest_parameter(piece, start, point);
+    return {point_at(piece, start, v), direction_at(hodograph(piece, start), v)};
+}
+
 } // namespace vera

@@ -46,4 +46,14 @@ double farthest_parameter(
 double
 nearest_parameter(const ContourPiece& piece, ContourPiece::Point start, ContourPiece::Point point);
 
+/// A point of a piece, and the direction in which the piece goes there: see direction_at().
+struct PlaceOnPiece {
+    ContourPiece::Point point;
+    ContourPiece::Point direction;
+};
+
+/// Of the point of the piece nearest to the given one.
+PlaceOnPiece
+nearest_place(const ContourPiece& piece, ContourPiece::Point start, ContourPiece::Point point);
+
 } // namespace vera

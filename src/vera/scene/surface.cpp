@@ -116,9 +116,7 @@ SurfacePoint rotational_surface(Vec3 point, const RotationalShape& shape, std::u
 
     const ContourPiece::Point start = piece == 0 ? shape.start : shape.contour[piece - 1].end;
     const ContourPiece& contour = shape.contour[piece];
-    const double v = nearest_parameter(contour, start, {r, h});
-    const ContourPiece::Point at = point_at(contour, start, v);
-    const ContourPiece::Point along = direction_at(hodograph(contour, start), v);
+    const auto [at, along] = nearest_place(contour, start, {r, h});
     const double size = std::sqrt(along.r * along.r + along.h * along.h);
     const ContourPiece::Point out = {along.h / size, -along.r / size};
 

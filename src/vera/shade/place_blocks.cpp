@@ -9,6 +9,9 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "vera/shade/place_blocks.cpp"
 #include <hwy/foreach_target.h>
+// Behind the line above, which includes this file once for each instruction set.
+#include "vera/shade/block_lanes-inl.h"
+
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
@@ -19,82 +22,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 // Below, a function of lighting.h is written with the same operations in the same order for as many
 // lanes as fit into a register, from `lane` on.
-
-using Doubles = hn::CappedTag<double, block_size>;
-using Vec = hn::Vec<Doubles>;
-using Mask = hn::Mask<Doubles>;
-
-HWY_INLINE Vec all(double value) {
-    return hn::Set(Doubles(), value);
-}
-
-HWY_INLINE Vec row(const BlockRow& values, std::size_t lane) {
-    return hn::LoadU(Doubles(), values.data() + lane);
-}
-
-HWY_INLINE void store(Vec value, BlockRow& values, std::size_t lane) {
-    hn::StoreU(value, Doubles(), values.data() + lane);
-}
-
-HWY_INLINE BlockLanes bits(Mask mask, std::size_t lane) {
-    std::uint8_t bytes[8] = {};
-    hn::StoreMaskBits(Doubles(), mask, bytes);
-    return (BlockLanes{bytes[0]} & ((BlockLanes{1} << hn::Lanes(Doubles())) - 1)) << lane;
-}
-
-HWY_INLINE Mask mask_of(BlockLanes lanes, std::size_t lane) {
-    const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(lanes >> lane)};
-    return hn::LoadMaskBits(Doubles(), bytes);
-}
-
-struct Vec3s {
-    Vec x;
-    Vec y;
-    Vec z;
-};
-
-HWY_INLINE Vec3s rows(const BlockRows& values, std::size_t lane) {
-    return {row(values[0], lane), row(values[1], lane), row(values[2], lane)};
-}
-
-HWY_INLINE void store(const Vec3s& value, BlockRows& values, std::size_t lane) {
-    store(value.x, values[0], lane);
-    store(value.y, values[1], lane);
-    store(value.z, values[2], lane);
-}
-
-HWY_INLINE Vec3s operator-(const Vec3s& a, const Vec3s& b) {
-    return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
-}
-
-HWY_INLINE Vec3s operator*(Vec factor, const Vec3s& a) {
-    return {hn::Mul(factor, a.x), hn::Mul(factor, a.y), hn::Mul(factor, a.z)};
-}
-
-HWY_INLINE Vec3s operator/(const Vec3s& a, Vec divisor) {
-    return {hn::Div(a.x, divisor), hn::Div(a.y, divisor), hn::Div(a.z, divisor)};
-}
-
-HWY_INLINE Vec dot(const Vec3s& a, const Vec3s& b) {
-    return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
-}
-
-HWY_INLINE Vec largest_component(const Vec3s& a) {
-    return hn::Max(hn::Max(hn::Abs(a.x), hn::Abs(a.y)), hn::Abs(a.z));
-}
-
-HWY_INLINE Vec3s chosen(Mask mask, const Vec3s& a, const Vec3s& b) {
-    return {
-        hn::IfThenElse(mask, a.x, b.x),
-        hn::IfThenElse(mask, a.y, b.y),
-        hn::IfThenElse(mask, a.z, b.z)};
-}
-
-/// Whether length() takes the root of the squares' sum as it is. What is not usual is computed lane
-/// by lane, by the functions for one place.
-HWY_INLINE Mask has_usual_length(Vec largest) {
-    return hn::And(hn::Gt(largest, all(1e-140)), hn::Lt(largest, all(1e140)));
-}
 
 /// Stores the unit vectors; returns the lanes where it has stored the vectors as they are.
 HWY_INLINE BlockLanes store_normalized(const Vec3s& a, BlockRows& result, std::size_t lane) {
@@ -149,10 +76,13 @@ struct LightLanes {
 };
 
 HWY_INLINE Vec highlight_factors(Vec x, Vec spc) {
+    const Mask shines = hn::And(hn::Lt(spc, all(1)), hn::Ge(x, spc));
+    if (hn::AllFalse(Doubles(), shines))
+        return all(0);
     const Vec width = hn::Sub(all(1), spc);
     const Vec factor =
         hn::Div(hn::Mul(hn::Sub(x, spc), hn::Sub(hn::Add(x, spc), all(2))), hn::Mul(width, width));
-    return hn::IfThenElseZero(hn::And(hn::Lt(spc, all(1)), hn::Ge(x, spc)), factor);
+    return hn::IfThenElseZero(shines, factor);
 }
 
 /// The lanes from `lane` on; returns those that the light may reach but whose distance is unusual.

@@ -101,18 +101,17 @@ struct alignas(64) RefractionBlock {
 /// The place in a lane, as the functions for one place see it.
 Incidence incidence_at(const PlaceBlock& block, std::size_t lane);
 
-/// Puts a place into a lane. turn_to_viewer() completes what is known of it.
-inline void put_place(
-    PlaceBlock& block,
-    std::size_t lane,
-    const SurfacePoint& surface,
-    Vec3 ray_direction,
-    const Material& material) {
+/// Puts a place into a lane, without its material. turn_to_viewer() completes what is known of it.
+inline void
+put_surface(PlaceBlock& block, std::size_t lane, const SurfacePoint& surface, Vec3 ray_direction) {
     put(block.point, lane, surface.point);
     block.point_error[lane] = surface.point_error;
     put(block.to_viewer, lane, -ray_direction);
     put(block.normal, lane, surface.shading_normal);
     put(block.geometric_normal, lane, surface.geometric_normal);
+}
+
+inline void put_material(PlaceBlock& block, std::size_t lane, const Material& material) {
     put(block.drf, lane, material.drf);
     put(block.arf, lane, material.arf);
     block.spc[lane] = material.spc;
