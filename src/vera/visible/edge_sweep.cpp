@@ -22,23 +22,64 @@ SegmentPlace clamped(SegmentPlace place) {
     return place.numerator > place.denominator ? ending : place;
 }
 
+/// The parts of the line that lie in the triangle begin and end where it crosses the sides that
+/// begin at these corners.
+struct SidesAcross {
+    std::uint8_t enters = 0;
+    std::uint8_t leaves = 0;
+};
+
+/// By which of the corners lie on the left, as bits. Corners go round to the left: the line enters
+/// where they go from its left to its right.
+constexpr std::array<SidesAcross, 8> sides_across = {
+    {{}, {0, 2}, {1, 0}, {1, 2}, {2, 1}, {0, 1}, {2, 0}, {}}};
+
 } // namespace
 
-/// Tells how those of the triangles list(cell) of the cells along the edge that matter lie to it.
+/// Tells how those of the triangles list(cell) of the cells along the edge that matter lie to it,
+/// but for slices of cells that are hidden.
 template <typename List, typename DoesMatter>
-void EdgeSweep::classify_along(const List& list, const DoesMatter& does_matter) {
-    for_each_cell_along(raster_.cells, begin_, end_, [&](std::size_t cell) {
-        const std::span<const std::uint32_t> here = list(cell);
-        ++counts_.followed_cells;
-        counts_.looked_at += here.size();
-        for (const std::uint32_t triangle : here)
-            if (stamps_[triangle] != stamp_ && does_matter(triangle)) {
-                stamps_[triangle] = stamp_;
-                ++counts_.candidates;
-                classify(triangle);
-            }
-        return true;
+void EdgeSweep::classify_along(
+    const List& list, const DoesMatter& does_matter, std::uint8_t hidden_eighths) {
+    const SegmentSlices slices(raster_.cells, begin_, end_);
+    const std::int32_t count = slices.count();
+    slices.for_each([&](const CellSlice& slice) {
+        if ((hidden_eighths & eighth_of(slice.number, count)) != 0) {
+            hide_between(slice.enters - slices.along(begin_), slice.leaves - slices.along(begin_));
+            return true;
+        }
+        return for_each_cell_of(slice, [&](std::size_t cell) {
+            const std::span<const std::uint32_t> here = list(cell);
+            ++counts_.followed_cells;
+            counts_.looked_at += here.size();
+            for (const std::uint32_t triangle : here)
+                if (std::uint32_t& stamp = stamps_[triangle];
+                    stamp != stamp_ && does_matter(triangle)) {
+                    stamp = stamp_;
+                    ++counts_.candidates;
+                    classify(triangle);
+                }
+            return true;
+        });
     });
+}
+
+/// Hides the part of the edge between two coordinates along which it is longer, from its begin on.
+void EdgeSweep::hide_between(std::int64_t first, std::int64_t last) {
+    if (first == last)
+        return; // the edge ends at the border of a cell
+    const std::int64_t length = std::abs(way_.x) >= std::abs(way_.y) ? way_.x : way_.y;
+    if (length < 0) {
+        std::swap(first, last);
+        first = -first;
+        last = -last;
+    }
+    hidden_slices_.push_back(
+        {no_triangle,
+         left_side | right_side,
+         no_edge,
+         {first, std::abs(length)},
+         {last, std::abs(length)}});
 }
 
 /// Of a triangle with a side in the line of the edge, from corner `side` on.
@@ -62,7 +103,18 @@ void EdgeSweep::add_beside(
          last});
 }
 
-void EdgeSweep::add_across(const Across& across) {
+/// Where the edge's line crosses the triangle's side from a corner on, the orientations of whose
+/// ends with the line are side and next_side, of different signs.
+SegmentPlace EdgeSweep::crossing_of_side(
+    ScreenPoint corner, ScreenPoint next, std::int64_t side, std::int64_t next_side) const {
+    // As crossing_place(), whose denominator is the cross product of both ways.
+    const std::int64_t numerator = cross(step(begin_, corner), step(corner, next));
+    return next_side > side ? SegmentPlace{numerator, next_side - side}
+                            : SegmentPlace{-numerator, side - next_side};
+}
+
+/// Where the line passes into and out of a triangle with a corner on it.
+std::array<SegmentPlace, 2> EdgeSweep::places_of_touching(const Across& across) {
     const std::array<ScreenPoint, 3>& corners = raster_.corners[across.triangle];
     const std::array<std::int64_t, 3>& sides = across.sides;
     std::array<SegmentPlace, 2> places;
@@ -73,16 +125,37 @@ void EdgeSweep::add_across(const Across& across) {
             places[count++] = place_on(begin_, end_, corners[i]);
             add_touch(corners[i]);
         } else if ((sides[i] < 0 && sides[next] > 0) || (sides[i] > 0 && sides[next] < 0)) {
-            // The same two numbers whichever of the two triangles at that side is asked.
-            places[count++] = corners[i] < corners[next]
-                ? crossing_place(begin_, end_, corners[i], corners[next])
-                : crossing_place(begin_, end_, corners[next], corners[i]);
+            places[count++] = crossing_of_side(corners[i], corners[next], sides[i], sides[next]);
         }
     }
     if (order(places[1], places[0]) < 0)
         std::swap(places[0], places[1]);
-    const SegmentPlace first = clamped(places[0]);
-    const SegmentPlace last = clamped(places[1]);
+    return places;
+}
+
+void EdgeSweep::add_across(const Across& across) {
+    const std::array<std::int64_t, 3>& sides = across.sides;
+    SegmentPlace first;
+    SegmentPlace last;
+    if (sides[0] == 0 || sides[1] == 0 || sides[2] == 0) {
+        const std::array<SegmentPlace, 2> places = places_of_touching(across);
+        first = places[0];
+        last = places[1];
+    } else {
+        const std::array<ScreenPoint, 3>& corners = raster_.corners[across.triangle];
+        const auto place = [&](std::size_t side) {
+            const std::size_t next = (side + 1) % 3;
+            return crossing_of_side(corners[side], corners[next], sides[side], sides[next]);
+        };
+        const auto [enters, leaves] = sides_across
+            [(sides[0] > 0 ? 1U : 0U) | (sides[1] > 0 ? 2U : 0U) | (sides[2] > 0 ? 4U : 0U)];
+        first = place(enters);
+        last = place(leaves);
+    }
+    if (last.numerator <= 0 || first.numerator >= first.denominator)
+        return; // of the line alone
+    first = clamped(first);
+    last = clamped(last);
     if (order(first, last) < 0 && !is_hidden(first, last))
         covers_.push_back({across.triangle, left_side | right_side, no_edge, first, last});
 }
@@ -90,28 +163,23 @@ void EdgeSweep::add_across(const Across& across) {
 /// Tells how the triangle lies to the edge.
 void EdgeSweep::classify(std::uint32_t triangle) {
     const std::array<ScreenPoint, 3>& corners = raster_.corners[triangle];
-    const auto is_beyond = [&](auto coordinate) {
-        const std::int32_t least = std::min(coordinate(begin_), coordinate(end_));
-        const std::int32_t most = std::max(coordinate(begin_), coordinate(end_));
-        return (coordinate(corners[0]) < least && coordinate(corners[1]) < least
-                && coordinate(corners[2]) < least)
-            || (coordinate(corners[0]) > most && coordinate(corners[1]) > most
-                && coordinate(corners[2]) > most);
-    };
-    if (is_beyond([](ScreenPoint p) { return p.x; })
-        || is_beyond([](ScreenPoint p) { return p.y; }))
-        return;
+    const auto [x0, x1, x2] = std::array{corners[0].x, corners[1].x, corners[2].x};
+    const auto [y0, y1, y2] = std::array{corners[0].y, corners[1].y, corners[2].y};
     Across across = {triangle, {}};
-    std::size_t on_line = 0;
-    bool left = false;
-    bool right = false;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const std::int64_t side = across.sides[i] = orientation(begin_, end_, corners[i]);
-        on_line += side == 0 ? 1 : 0;
-        left = left || side > 0;
-        right = right || side < 0;
-    }
-    if (left && right)
+    for (std::size_t i = 0; i < 3; ++i)
+        across.sides[i] = cross(way_, step(begin_, corners[i])); // orientation()
+    const auto [a, b, c] = across.sides;
+    // By bits, without a jump that nothing foretells, but for one.
+    const auto bit = [](bool is_so) { return is_so ? 1U : 0U; };
+    const unsigned is_beyond = bit(std::max({x0, x1, x2}) < least_.x)
+        | bit(std::min({x0, x1, x2}) > most_.x) | bit(std::max({y0, y1, y2}) < least_.y)
+        | bit(std::min({y0, y1, y2}) > most_.y);
+    const unsigned left = bit(a > 0) | bit(b > 0) | bit(c > 0);
+    const unsigned right = bit(a < 0) | bit(b < 0) | bit(c < 0);
+    const unsigned on_line = bit(a == 0) + bit(b == 0) + bit(c == 0);
+    if ((is_beyond | bit(((left & right) | on_line) == 0)) != 0)
+        return;
+    if ((left & right) != 0)
         return across_.push_back(across);
     if (on_line == 2)
         return add_beside(
@@ -141,7 +209,7 @@ void EdgeSweep::find_hidden_parts() {
     std::array<double, 2> to_hide = {-1, -1};
     const std::array<NearnessPlace, 2> ends = {place_at(0), place_at(1)};
     const auto is_shadow = [&](std::uint32_t triangle) {
-        return raster_.scene.triangles[triangle].is_shadow();
+        return may_be_shadow_ && raster_.scene.triangles[triangle].is_shadow();
     };
     for (const Cover& cover : covers_) {
         if (cover.is_on_both_sides())
@@ -159,6 +227,7 @@ void EdgeSweep::find_hidden_parts() {
             add_across(across);
         return hides;
     });
+    covers_.insert(covers_.end(), hidden_slices_.begin(), hidden_slices_.end());
     const auto first = covers_.begin() + static_cast<std::ptrdiff_t>(first_hidden_);
     std::sort(first, covers_.end(), [](const Cover& a, const Cover& b) {
         return order(a.first, b.first) < 0;
@@ -221,7 +290,8 @@ void EdgeSweep::change_active(const Event& event) {
         is_hidden_here_ = event.kind == Event::begins;
         return;
     }
-    const bool is_shadow = raster_.scene.triangles[covers_[event.number].triangle].is_shadow();
+    const bool is_shadow =
+        may_be_shadow_ && raster_.scene.triangles[covers_[event.number].triangle].is_shadow();
     std::vector<std::uint32_t>& active = is_shadow ? active_shadows_ : active_;
     if (event.kind == Event::begins)
         active.push_back(event.number);
@@ -338,9 +408,11 @@ void EdgeSweep::find_seen_sources(bool is_of_surfaces) {
 /// nothing where that is the same.
 std::array<const EdgeSweep::Cover*, 2>
 EdgeSweep::seen_between(double first, double last, bool asks_always) {
-    seen_.start(place_at(first), place_at(last));
     counts_.active += active_.size();
-    if (!asks_always && (!has_one_sided() || (hidden_by_ != no_cover && is_still_hidden())))
+    if (!asks_always && !has_one_sided())
+        return {};
+    seen_.start(place_at(first), place_at(last));
+    if (!asks_always && hidden_by_ != no_cover && is_still_hidden())
         return {};
     for (const std::uint32_t i : active_)
         seen_.add(covers_[i].triangle, covers_[i].sides);
@@ -390,11 +462,15 @@ bool EdgeSweep::gather(std::uint32_t edge) {
     const auto& [begin, end] = raster_.edges.edges[edge];
     begin_ = raster_.scene.vertices[begin].point;
     end_ = raster_.scene.vertices[end].point;
+    way_ = step(begin_, end_);
+    least_ = {std::min(begin_.x, end_.x), std::min(begin_.y, end_.y)};
+    most_ = {std::max(begin_.x, end_.x), std::max(begin_.y, end_.y)};
     seen_.follow(begin_, end_);
     ++stamp_;
     ++counts_.followed;
     across_.clear();
     covers_.clear();
+    hidden_slices_.clear();
     touches_.clear();
     first_hidden_ = last_hidden_ = 0;
     const auto all = [](std::uint32_t) { return true; };
@@ -417,14 +493,16 @@ bool EdgeSweep::gather(std::uint32_t edge) {
         if (!ends_a_shadow_somewhere())
             return false;
     }
-    classify_along(surfaces, all);
+    // Shadows may be seen on surfaces that they are no matter of, and so need all of these.
+    const bool are_there_shadows = !raster_.shadow_cells.triangles.empty();
+    classify_along(surfaces, all, are_there_shadows ? 0 : raster_.hidden_eighths[edge]);
     if (shadowed != several_sources) {
         find_hidden_parts();
         if (is_hidden(beginning, ending))
             return false;
     }
     add_all_across();
-    if (is_of_shadows || raster_.shadow_cells.triangles.empty())
+    if (is_of_shadows || !are_there_shadows)
         return true;
     find_seen_sources(is_of_surfaces);
     for (const std::uint32_t source : seen_sources_)
@@ -433,7 +511,7 @@ bool EdgeSweep::gather(std::uint32_t edge) {
 }
 
 void EdgeSweep::follow(std::uint32_t edge, VisiblePieces& result) {
-    if (raster_.is_hidden[edge] != 0 || raster_.is_inner(edge))
+    if (raster_.hidden_eighths[edge] == all_eighths || raster_.is_inner(edge))
         return;
     result_ = &result;
     if (!gather(edge))
@@ -452,12 +530,21 @@ void EdgeSweep::follow(std::uint32_t edge, VisiblePieces& result) {
         return source_of(open.left.triangle) != source_of(open.right.triangle)
             || open.left.unlit != open.right.unlit;
     };
+    // To find a point takes as long as all else of a piece, and most begin where the one before
+    // ended.
+    bool is_end_of_piece = false; // the place where the open one begins
+    const auto point = [&](SegmentPlace place) {
+        return PackedPoint(point_at(begin_, end_, place));
+    };
     const auto close = [&](SegmentPlace last) {
-        if (!is_open())
+        const bool is_piece = is_open();
+        const bool continues = std::exchange(is_end_of_piece, is_piece);
+        if (!is_piece)
             return;
         const auto number = static_cast<std::uint32_t>(result.points.size());
-        result.points.push_back(point_at(begin_, end_, open.first));
-        result.points.push_back(point_at(begin_, end_, last));
+        const PackedPoint from = continues ? result.points.back() : point(open.first);
+        result.points.push_back(from);
+        result.points.push_back(point(last));
         result.pieces.push_back(
             {number,
              number + 1,
