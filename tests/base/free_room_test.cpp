@@ -35,7 +35,7 @@ TEST(FreeRoom, OfFreedBlocksBetweenOthersIsGivenBack) {
     if (memory_is_watched())
         GTEST_SKIP() << "a sanitizer keeps memory for itself";
     give_back_freed_blocks();
-    constexpr std::size_t block = std::size_t{6} << 20U;
+    constexpr std::size_t block = std::size_t{1} << 22;
     constexpr std::size_t blocks = 20;
     std::vector<std::unique_ptr<std::vector<char>>> kept;
     for (std::size_t i = 0; i < blocks; ++i) // C libraries learn from what is freed

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -30,6 +31,27 @@ TEST(WriteDrawing, WritesTheSameBytesTwice) {
         std::ifstream file(folder / "a", std::ios::binary);
         EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), bytes);
     }
+    fs::remove_all(folder);
+}
+
+TEST(WriteDrawing, WritesAnSvgOfManyAreasIntoAFilePartByPart) {
+    Drawing drawing = sample_drawing();
+    drawing.areas.places = {{0, 0}, {4, 0}, {4, 4}, {0.001, 0}};
+    for (std::uint32_t i = 0; i < 100'000; ++i) {
+        // Nothing is left of every third.
+        for (const std::uint32_t place : {0U, 1U, i % 3 == 0 ? 3U : 2U})
+            drawing.areas.corners.push_back(place);
+        drawing.areas.ring_ends.push_back(3 * (i + 1));
+        drawing.areas.area_ends.push_back(i + 1);
+        drawing.areas.colors.push_back({static_cast<std::uint8_t>(i), 0, 0});
+    }
+    std::string name = (fs::temp_directory_path() / "vera-drawing-XXXXXX").native();
+    const fs::path folder = mkdtemp(name.data());
+    write_drawing(drawing, folder / "a", DrawingFormat::svg);
+    std::ifstream file(folder / "a", std::ios::binary);
+    const std::string found{std::istreambuf_iterator<char>(file), {}};
+    EXPECT_TRUE(found == written(write_svg, drawing));
+    EXPECT_GT(found.size(), std::size_t{1} << 21U);
     fs::remove_all(folder);
 }
 

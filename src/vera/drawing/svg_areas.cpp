@@ -18,6 +18,14 @@ public:
         : areas_(areas)
         , lattice_(lattice) {}
 
+    void write(std::size_t first, std::size_t last) {
+        for (std::size_t area = first; area < last; ++area)
+            write(area);
+    }
+
+    std::string take() { return std::move(text_); }
+
+private:
     void write(std::size_t area) {
         const std::size_t begin = text_.size();
         text_ += "<path fill=\"";
@@ -37,9 +45,6 @@ public:
             text_ += "\"/>\n";
     }
 
-    std::string take() { return std::move(text_); }
-
-private:
     /// The points of the ring after rounding, each but once where several in a row are equal.
     void round_ring(std::uint32_t ring) {
         ring_.clear();
@@ -83,8 +88,7 @@ void add_svg_areas(
     parallel_ranges(parts.size(), 1, [&](std::size_t number, std::size_t) {
         AreaWriter writer(areas, lattice);
         const std::size_t end = std::min(last, first + (number + 1) * part);
-        for (std::size_t area = first + number * part; area < end; ++area)
-            writer.write(area);
+        writer.write(first + number * part, end);
         parts[number] = writer.take();
     });
     std::size_t size = text.size();
