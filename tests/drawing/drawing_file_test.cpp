@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cstdint>
 #include <system_error>
 #include <vector>
 
@@ -24,6 +25,24 @@ TEST(WriteDrawing, WritesTheSameBytesTwice) {
         write_drawing(sample_drawing(), folder.path() / "a", format);
         EXPECT_EQ(folder.read("a"), bytes);
     }
+}
+
+TEST(WriteDrawing, WritesAnSvgOfManyAreasIntoAFilePartByPart) {
+    Drawing drawing = sample_drawing();
+    drawing.areas.places = {{0, 0}, {4, 0}, {4, 4}, {0.001, 0}};
+    for (std::uint32_t i = 0; i < 100'000; ++i) {
+        // Nothing is left of every third.
+        for (const std::uint32_t place : {0U, 1U, i % 3 == 0 ? 3U : 2U})
+            drawing.areas.corners.push_back(place);
+        drawing.areas.ring_ends.push_back(3 * (i + 1));
+        drawing.areas.area_ends.push_back(i + 1);
+        drawing.areas.colors.push_back({static_cast<std::uint8_t>(i), 0, 0});
+    }
+    const ScratchFolder folder;
+    write_drawing(drawing, folder.path() / "a", DrawingFormat::svg);
+    const std::string found = folder.read("a");
+    EXPECT_TRUE(found == written(write_svg, drawing));
+    EXPECT_GT(found.size(), std::size_t{1} << 21U);
 }
 
 /// Thousands of squares and lines, so that all loops look at the flag several times.

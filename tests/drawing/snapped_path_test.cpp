@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/drawing/elliptic_arc.h"
 #include "vera/drawing/snapped_path.h"
+#include "vera/drawing/svg_path.h"
 
 #include <algorithm>
 #include <cctype>
@@ -65,6 +66,19 @@ private:
     std::string text_;
     std::size_t position_ = 0;
 };
+
+TEST(SnappedPath, NumbersAreRoundedAsTheLibraryDoes) {
+    std::mt19937_64 numbers(1);
+    for (int i = 0; i < 20'000; ++i) {
+        // Near halves of numbers of every length.
+        const double whole = static_cast<double>(numbers() >> 14U >> numbers() % 50);
+        double number = std::min(whole, 9e14) + 0.25 * static_cast<double>(numbers() % 4);
+        number = i % 2 == 0 ? number : std::nextafter(number, i % 4 == 1 ? 0.0 : 1e15);
+        for (const double signed_number : {number, -number})
+            EXPECT_EQ(rounded(signed_number), std::llround(signed_number)) << signed_number;
+    }
+    EXPECT_EQ(rounded(0x1.fffffffffffffp-2), 0) << "the sum with a half would be rounded up";
+}
 
 TEST(Lattice, IsOfTheCoarsestPowerOfATenthThatIsFineEnough) {
     for (int digits = 0; digits <= 6; ++digits) {

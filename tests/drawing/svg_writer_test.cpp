@@ -155,7 +155,7 @@ TEST(WriteSvg, PaintsClassesInTheirOrderAndThoseWithoutAStyleAnyhow) {
 TEST(WriteSvgDeathTest, RefusesNumbersThatAreNotFinite) {
     Drawing drawing = sample_drawing();
     drawing.fills[0].rings[0][0].x = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_DEATH(written(write_svg, drawing), "drawing/snapped_path.cpp");
+    EXPECT_DEATH(written(write_svg, drawing), "drawing/snapped_path");
     EXPECT_DEATH(written(write_svg, {.width = 0}), "drawing.width > 0");
     Drawing colorless = drawing_of_gradients();
     colorless.fills[0].gradient->stops.clear();

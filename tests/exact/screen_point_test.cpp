@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/exact/screen_point.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
 #include <random>
 
 #include "exact/few_points.h"
@@ -45,6 +49,50 @@ TEST(ScreenPoint, CrossingsLieOnBothSegmentsToTheLastBit) {
         EXPECT_TRUE(area(a, b) == 0 && area(p, q) == 0);
     }
     EXPECT_GT(crossings, 5'000);
+}
+
+/// The same as point_at(), by division of 128 bits.
+RationalPoint divided(ScreenPoint a, ScreenPoint b, SegmentPlace place) {
+    const ScreenStep whole = step(a, b);
+    const Int128 x = Int128{place.numerator} * whole.x + Int128{a.x} * place.denominator;
+    const Int128 y = Int128{place.numerator} * whole.y + Int128{a.y} * place.denominator;
+    const auto x_rest = static_cast<std::int64_t>(x % place.denominator);
+    const auto y_rest = static_cast<std::int64_t>(y % place.denominator);
+    const std::int64_t common = std::gcd(std::gcd(x_rest, y_rest), place.denominator);
+    return {
+        {static_cast<std::int32_t>(x / place.denominator),
+         static_cast<std::int32_t>(y / place.denominator)},
+        x_rest / common,
+        y_rest / common,
+        place.denominator / common};
+}
+
+TEST(ScreenPoint, PointsAreThoseOfLongDivision) {
+    std::mt19937_64 random(3);
+    const auto anywhere = [&] {
+        const auto x = static_cast<std::int32_t>(random() % (screen_size + 1));
+        const auto y = static_cast<std::int32_t>(random() % (screen_size + 1));
+        return ScreenPoint{x, y};
+    };
+    std::size_t reduced = 0;
+    for (int i = 0; i < 50'000; ++i) {
+        const bool is_few = i % 2 == 0;
+        const ScreenPoint a = is_few ? few(random) : anywhere();
+        const ScreenPoint b = is_few ? few(random) : anywhere();
+        // Long denominators, short ones, and places next to both ends.
+        const auto denominator =
+            static_cast<std::int64_t>(1 + (random() >> (18U + random() % 46U)));
+        const auto beside = static_cast<std::int64_t>(random() % 3);
+        const auto between =
+            static_cast<std::int64_t>(random() % (static_cast<std::uint64_t>(denominator) + 1));
+        const std::int64_t numerator = i % 3 == 0 ? std::min(beside, denominator)
+            : i % 3 == 1                          ? std::max(denominator - beside, std::int64_t{0})
+                                                  : between;
+        const RationalPoint expected = divided(a, b, {numerator, denominator});
+        EXPECT_EQ(point_at(a, b, {numerator, denominator}), expected);
+        reduced += expected.denominator < denominator ? 1 : 0;
+    }
+    EXPECT_GT(reduced, 10'000U);
 }
 
 TEST(ScreenPoint, PlacesAreInTheOrderOfTheirPoints) {

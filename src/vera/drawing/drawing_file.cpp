@@ -2,6 +2,7 @@
 #include "vera/drawing/drawing_file.h"
 
 #include "vera/base/output_file.h"
+#include "vera/drawing/svg_areas.h"
 
 #include <algorithm>
 #include <iterator>
@@ -73,8 +74,7 @@ void write_drawing(
     std::string bytes;
     switch (format) {
     case DrawingFormat::svg:
-        write_svg(drawing, settings, bytes, progress, cancel);
-        break;
+        return detail::write_svg_file(drawing, settings, file, progress, cancel);
     case DrawingFormat::pdf:
         write_pdf(drawing, settings, bytes, progress, cancel);
         break;

@@ -54,15 +54,25 @@ struct AreaPaths {
 AreaPaths
 area_paths(const SharedAreas& areas, const Lattice& lattice, std::size_t first, std::size_t last);
 
-/// Calls visit(done, span of FilledPaths) for all that is filled in its order, and tells with how
-/// many outlines and areas it is done: so few at a time that what is made of them takes no room.
+constexpr std::size_t block_of_fills = 4096;
+
+/// Calls visit(done, span of FilledPaths) for all outlines that are filled in their order, and
+/// tells with how many it is done: so few at a time that what is made of them takes no room.
 template <typename Visit>
-void for_each_block_of_fills(
-    const Drawing& drawing, const Layers& layers, const Lattice& lattice, const Visit& visit) {
-    constexpr std::size_t block = 4096;
+void for_each_block_of_outlines(const Layers& layers, const Visit& visit) {
+    constexpr std::size_t block = block_of_fills;
     const std::size_t fills = layers.fills.size();
     for (std::size_t first = 0; first < fills; first += block)
         visit(first, std::span(layers.fills).subspan(first, std::min(block, fills - first)));
+}
+
+/// The same with the areas behind them.
+template <typename Visit>
+void for_each_block_of_fills(
+    const Drawing& drawing, const Layers& layers, const Lattice& lattice, const Visit& visit) {
+    constexpr std::size_t block = block_of_fills;
+    for_each_block_of_outlines(layers, visit);
+    const std::size_t fills = layers.fills.size();
     const std::size_t areas = drawing.areas.count();
     for (std::size_t first = 0; first < areas; first += block) {
         const AreaPaths paths =

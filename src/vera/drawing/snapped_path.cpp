@@ -16,139 +16,8 @@ namespace vera::detail {
 
 namespace {
 
-/// Doubles below this are whole numbers of units to a fraction that rounds right.
-constexpr double most_units = 1e15;
-
-/// The center of an arc of an SVG is found from its ends. Rounding these moves the far ends of flat
-/// ellipses by as many times as much as they are longer than wide.
-constexpr double flattest_arc = 4;
-
 /// How far curves may be off the arcs that they stand for, in units.
 constexpr double most_off = 0.5;
-
-std::int64_t rounded(double units) {
-    VERA_CHECK(std::abs(units) < most_units); // false for what is not a number
-    return std::llround(units);
-}
-
-/// Path data of an SVG that is as short as its grammar allows.
-class SvgPathWriter {
-public:
-    explicit SvgPathWriter(int digits)
-        : digits_(digits) {}
-
-    void write(const SnappedPath& path) {
-        // An m at the very beginning counts from (0, 0). Numbers behind it are lines, relative too.
-        begin('m');
-        write_point(path.points.front());
-        implied_ = 'l';
-        at_ = path.points.front();
-        for_each_segment(
-            path,
-            [&](SnappedPoint point) { write_line_to(point); },
-            [&](const DrawingArc& arc, SnappedPoint point) { write_arc_to(arc, point); });
-        implied_ = '\0';
-        if (path.closed) {
-            text_ += 'z';
-            at_ = path.points.front(); // where z leads back to
-        }
-    }
-
-    std::string take() { return std::move(text_); }
-
-private:
-    void write_line_to(SnappedPoint point) {
-        if (point.y == at_.y) {
-            begin('h');
-            write(point.x - at_.x);
-        } else if (point.x == at_.x) {
-            begin('v');
-            write(point.y - at_.y);
-        } else {
-            begin('l');
-            write_point(point);
-        }
-        at_ = point;
-    }
-
-    /// A short one as a curve, which takes fewer bytes, and a flat one too. Others in parts of 90
-    /// degrees at most: the center, which is found from the ends, is then off by no
-    /// more than these, and no part is the larger one of two.
-    void write_arc_to(const DrawingArc& arc, SnappedPoint point) {
-        constexpr int angle_digits = 4;
-        const double sweep = arc.end_degrees - arc.begin_degrees;
-        const double a = distance(arc.ellipse.major, {});
-        const double b = distance(arc.ellipse.minor, {});
-        if (quadratic_error(arc) <= most_off) {
-            begin('q');
-            write_point(rounded_point(quadratic_control(arc)));
-            write_point(point);
-            at_ = point;
-            return;
-        }
-        if (a > flattest_arc * b) {
-            write_curves_to(arc, point);
-            return;
-        }
-        double turn = rounded(a) == rounded(b) ? 0 : direction_degrees(arc.ellipse.major);
-        turn = turn > 90 + 1e-6 ? turn - 180 : turn < -90 + 1e-6 ? turn + 180 : turn;
-        const int parts = std::max(1, static_cast<int>(std::ceil(std::abs(sweep) / 90 - 1e-9)));
-        for (int i = 1; i <= parts; ++i) {
-            const SnappedPoint to = i == parts
-                ? point
-                : rounded_point(point_at(arc.ellipse, arc.begin_degrees + sweep * i / parts));
-            begin('a');
-            write(rounded(a));
-            write(rounded(b));
-            write(decimal(turn, angle_digits));
-            write("0");
-            write(sweep > 0 ? "1" : "0");
-            write_point(to);
-            at_ = to;
-        }
-    }
-
-    void write_curves_to(const DrawingArc& arc, SnappedPoint point) {
-        for (const SnappedCurve& curve : curves_along(arc, point)) {
-            begin('c');
-            for (const SnappedPoint to : {curve.first, curve.second, curve.end})
-                write_point(to);
-            at_ = curve.end;
-        }
-    }
-
-    void begin(char command) {
-        if (command == implied_)
-            return;
-        text_ += command;
-        implied_ = command;
-        last_ = Last::command;
-    }
-
-    void write_point(SnappedPoint point) {
-        write(point.x - at_.x);
-        write(point.y - at_.y);
-    }
-
-    void write(std::int64_t units) { write(decimal(units, digits_)); }
-
-    void write(const std::string& number) {
-        const bool ends_the_last = number.front() == '-' || last_ == Last::command
-            || (number.front() == '.' && last_ == Last::fraction);
-        if (!ends_the_last)
-            text_ += ' ';
-        text_ += number;
-        last_ = number.find('.') == std::string::npos ? Last::integer : Last::fraction;
-    }
-
-    enum class Last { command, integer, fraction };
-
-    int digits_;
-    std::string text_;
-    SnappedPoint at_;
-    char implied_ = '\0'; ///< the command that further numbers would repeat
-    Last last_ = Last::command;
-};
 
 /// What is left of a chain with these arcs; nothing when no length is.
 std::optional<SnappedPath> snapped(
@@ -225,6 +94,13 @@ DrawingArc Lattice::in_units(const DrawingArc& arc) const {
     return result;
 }
 
+std::int64_t rounded(double number, int digits) {
+    double units = number;
+    for (int i = 0; i < digits; ++i)
+        units *= 10;
+    return rounded(units);
+}
+
 SnappedPoint rounded_point(DrawingPoint in_units) {
     return {rounded(in_units.x), rounded(in_units.y)};
 }
@@ -279,7 +155,7 @@ std::optional<SnappedPath> snapped_line(const Stroke& stroke, const Lattice& lat
     return line;
 }
 
-std::string decimal(std::int64_t units, int digits) {
+char* write_decimal(char* to, std::int64_t units, int digits) {
     std::array<char, 20> text; // of 2^63 - 1
     const char* const begin = text.data();
     const char* end = std::to_chars(text.data(), text.data() + text.size(), std::abs(units)).ptr;
@@ -287,31 +163,30 @@ std::string decimal(std::int64_t units, int digits) {
     const char* const point = begin + std::max<std::ptrdiff_t>(before_point, 0);
     while (end > point && end[-1] == '0')
         --end;
-    if (end == begin)
-        return "0";
-    std::string number(units < 0 ? "-" : "");
-    number.append(begin, point);
-    if (end > point) {
-        number += '.';
-        if (before_point < 0)
-            number.append(static_cast<std::size_t>(-before_point), '0');
-        number.append(point, end);
+    if (end == begin) {
+        *to++ = '0';
+        return to;
     }
-    return number;
+    if (units < 0)
+        *to++ = '-';
+    to = std::copy(begin, point, to);
+    if (end > point) {
+        *to++ = '.';
+        if (before_point < 0)
+            to = std::fill_n(to, -before_point, '0');
+        to = std::copy(point, end, to);
+    }
+    return to;
+}
+
+std::string decimal(std::int64_t units, int digits) {
+    std::string text(longest_decimal(digits), '\0');
+    text.resize(static_cast<std::size_t>(write_decimal(text.data(), units, digits) - text.data()));
+    return text;
 }
 
 std::string decimal(double number, int digits) {
-    double units = number;
-    for (int i = 0; i < digits; ++i)
-        units *= 10;
-    return decimal(rounded(units), digits);
-}
-
-std::string svg_path_data(std::span<const SnappedPath> paths, int digits) {
-    SvgPathWriter writer(digits);
-    for (const SnappedPath& path : paths)
-        writer.write(path);
-    return writer.take();
+    return decimal(rounded(number, digits), digits);
 }
 
 } // namespace vera::detail

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "vera/base/check.h"
 #include "vera/drawing/drawing.h"
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -65,6 +67,19 @@ private:
     double units_per_pixel_ = 1;
 };
 
+/// The nearest whole number, of two the one farther from 0. It must be finite, and less than 1e15,
+/// below which doubles have the fraction that rounding asks for.
+inline std::int64_t rounded(double units) {
+    constexpr double most_units = 1e15;
+    VERA_CHECK(std::abs(units) < most_units); // false for what is not a number
+    // Half a unit less a bit: the sum with it is rounded up to 1 only from a half on.
+    constexpr double almost_half = 0x1.fffffffffffffp-2;
+    return static_cast<std::int64_t>(units + std::copysign(almost_half, units));
+}
+
+/// In units of 10^-digits, rounded.
+std::int64_t rounded(double number, int digits);
+
 /// A point in units, rounded.
 SnappedPoint rounded_point(DrawingPoint in_units);
 
@@ -92,12 +107,16 @@ std::vector<SnappedCurve> curves_along(const DrawingArc& arc, SnappedPoint end);
 /// A number of units of 10^-digits as a decimal, with nothing that can be left out: "-.5", "12".
 std::string decimal(std::int64_t units, int digits);
 
+/// At most as many bytes as a decimal takes: a sign, a point, zeros behind it, and digits.
+constexpr std::size_t longest_decimal(int digits) {
+    return 22 + static_cast<std::size_t>(digits);
+}
+
+/// The same to where there is room for the longest; returns where it ends.
+char* write_decimal(char* to, std::int64_t units, int digits);
+
 /// The number rounded to that many digits behind the point. It must be finite, and below 1e15 in
 /// units of the last digit.
 std::string decimal(double number, int digits);
-
-/// The paths as the attribute d of an SVG path. All but its first point is relative, in differences
-/// of rounded numbers: rounding does not add up.
-std::string svg_path_data(std::span<const SnappedPath> paths, int digits);
 
 } // namespace vera::detail

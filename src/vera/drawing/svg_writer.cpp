@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/base/long_loop.h"
+#include "vera/base/output_file.h"
 #include "vera/base/progress_part.h"
 #include "vera/drawing/document_text.h"
 #include "vera/drawing/layers.h"
 #include "vera/drawing/paints.h"
+#include "vera/drawing/svg_areas.h"
+#include "vera/drawing/svg_path.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -23,21 +27,16 @@ using namespace detail;
 /// Digits behind the point of lengths that are no coordinates.
 constexpr int length_digits = 4;
 
-std::string css_color(DrawingColor color) {
-    const std::string text = fmt::format("{:02x}{:02x}{:02x}", color.r, color.g, color.b);
-    if (text[0] == text[1] && text[2] == text[3] && text[4] == text[5])
-        return {'#', text[0], text[2], text[4]};
-    return "#" + text;
-}
-
 class SvgWriter {
 public:
+    /// Into the text or, where there is a file, through it into that.
     SvgWriter(
         const Drawing& drawing,
         const DrawingSettings& settings,
         const Progress& progress,
         const CancelFlag* cancel,
-        std::string& text)
+        std::string& text,
+        OutputFile* file = nullptr)
         : drawing_(drawing)
         , settings_(settings)
         , lattice_(settings.precision)
@@ -45,7 +44,8 @@ public:
         , gradients_(layers_.fills)
         , stages_(progress_part(progress, 1, 2), static_cast<double>(1 + layers_.lines.size()))
         , cancel_(cancel)
-        , text_(text) {
+        , text_(text)
+        , file_(file) {
         // Before the outlines take theirs, so that a layer's id is always the same.
         if (drawing.background)
             background_id_ = ids_.take("background");
@@ -73,9 +73,19 @@ public:
         for (std::size_t i = 0; i < layers_.lines.size(); ++i)
             write_lines(layers_.lines[i], line_ids_[i]);
         text_ += "</svg>\n";
+        pass_on();
     }
 
 private:
+    /// What is written so far, into the file: the whole of a large drawing need not be there at a
+    /// time.
+    void pass_on() {
+        if (file_ == nullptr)
+            return;
+        file_->write(text_);
+        text_.clear();
+    }
+
     static std::string length(double value) { return decimal(value, length_digits); }
 
     void write_head() {
@@ -195,13 +205,18 @@ private:
             if (group && !group->empty())
                 text_ += "</g>\n";
         };
-        const LongLoop loop(
-            layers_.fills.size() + drawing_.areas.count(), stages_.next(1), cancel_, 256);
-        for_each_block_of_fills(
-            drawing_, layers_, lattice_, [&](std::size_t done, std::span<const FilledPath> fills) {
+        const Progress progress = stages_.next(1);
+        const double whole = static_cast<double>(layers_.fills.size() + drawing_.areas.count());
+        const auto tell = [&](std::size_t done) {
+            stop_if_raised(cancel_);
+            if (progress)
+                progress(static_cast<double>(done) / whole);
+        };
+        for_each_block_of_outlines(
+            layers_, [&](std::size_t done, std::span<const FilledPath> fills) {
+                tell(done);
                 const std::vector<FillData> data = fill_data(fills);
                 for (std::size_t i = 0; i < fills.size(); ++i) {
-                    loop.turn(done + i);
                     if (!group || fills[i].outline->group != *group) {
                         end_group();
                         group = fills[i].outline->group;
@@ -209,8 +224,17 @@ private:
                     }
                     write_fill(fills[i], data[i]);
                 }
+                pass_on();
             });
         end_group();
+        // So few at a time that their text takes no room.
+        constexpr std::size_t block = 32768;
+        for (std::size_t first = 0; first < drawing_.areas.count(); first += block) {
+            tell(layers_.fills.size() + first);
+            const std::size_t last = std::min(drawing_.areas.count(), first + block);
+            add_svg_areas(drawing_.areas, lattice_, first, last, text_);
+            pass_on();
+        }
         text_ += "</g>\n";
     }
 
@@ -279,6 +303,7 @@ private:
     StageProgress stages_;
     const CancelFlag* cancel_;
     std::string& text_;
+    OutputFile* file_;
     UniqueIds ids_;
     std::string background_id_;
     std::string fills_id_;
@@ -295,6 +320,16 @@ void write_svg(
     const Progress& progress,
     const CancelFlag* cancel) {
     SvgWriter(drawing, settings, progress, cancel, bytes).write();
+}
+
+void detail::write_svg_file(
+    const Drawing& drawing,
+    const DrawingSettings& settings,
+    OutputFile& file,
+    const Progress& progress,
+    const CancelFlag* cancel) {
+    std::string text;
+    SvgWriter(drawing, settings, progress, cancel, text, &file).write();
 }
 
 } // namespace vera

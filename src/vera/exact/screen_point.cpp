@@ -1,10 +1,71 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/exact/screen_point.h"
 
+#include <algorithm>
+#include <bit>
+#include <cstdint>
 #include <cstdlib>
-#include <numeric>
 
 namespace vera {
+
+namespace {
+
+/// whole + rest / denominator, where the rest is not negative and less than that.
+struct Quotient {
+    std::int64_t whole = 0;
+    std::int64_t rest = 0;
+};
+
+/// That part of a length. Where the place is on the segment, or within 2^24 of its lengths.
+Quotient part_of(std::int64_t length, SegmentPlace place) {
+    // The estimate, of less than 2^47, is off by three roundings of 2^-53: by less than one.
+    const double estimate = place.value() * static_cast<double>(length);
+    auto whole = static_cast<std::int64_t>(estimate);
+    // Of numbers that may be longer than 64 bits the difference is not, and so comes out right.
+    const auto product = [](std::int64_t one, std::int64_t other) {
+        return static_cast<std::uint64_t>(one) * static_cast<std::uint64_t>(other);
+    };
+    auto rest = static_cast<std::int64_t>(
+        product(place.numerator, length) - product(whole, place.denominator));
+    while (rest < 0) {
+        --whole;
+        rest += place.denominator;
+    }
+    while (rest >= place.denominator) {
+        ++whole;
+        rest -= place.denominator;
+    }
+    return {whole, rest};
+}
+
+/// Of numbers of which none is negative (Stein 1967).
+std::uint64_t common_divisor(std::uint64_t a, std::uint64_t b) {
+    if (a == 0 || b == 0)
+        return a | b;
+    const int twos = std::countr_zero(a | b);
+    a >>= std::countr_zero(a);
+    do {
+        b >>= std::countr_zero(b);
+        const std::uint64_t lesser = std::min(a, b);
+        b = std::max(a, b) - lesser;
+        a = lesser;
+    } while (b != 0);
+    return a << twos;
+}
+
+/// Of three, the last of which is positive: most often 1 after two of them.
+std::int64_t common_divisor(std::int64_t a, std::int64_t b, std::int64_t c) {
+    const std::uint64_t of_two =
+        common_divisor(static_cast<std::uint64_t>(a), static_cast<std::uint64_t>(b));
+    if (of_two == 0)
+        return c;
+    if (of_two == 1)
+        return 1;
+    return static_cast<std::int64_t>(
+        common_divisor(of_two, static_cast<std::uint64_t>(c) % of_two));
+}
+
+} // namespace
 
 SegmentPlace crossing_place(ScreenPoint a, ScreenPoint b, ScreenPoint p, ScreenPoint q) {
     const ScreenStep other = step(p, q);
@@ -27,20 +88,14 @@ SegmentPlace place_on(ScreenPoint a, ScreenPoint b, ScreenPoint point) {
 
 RationalPoint point_at(ScreenPoint a, ScreenPoint b, SegmentPlace place) {
     const ScreenStep whole = step(a, b);
-    const Int128 x = Int128{place.numerator} * whole.x + Int128{a.x} * place.denominator;
-    const Int128 y = Int128{place.numerator} * whole.y + Int128{a.y} * place.denominator;
-    RationalPoint result;
-    result.whole = {
-        static_cast<std::int32_t>(x / place.denominator),
-        static_cast<std::int32_t>(y / place.denominator)};
-    result.x_numerator = static_cast<std::int64_t>(x % place.denominator);
-    result.y_numerator = static_cast<std::int64_t>(y % place.denominator);
-    const std::int64_t common =
-        std::gcd(std::gcd(result.x_numerator, result.y_numerator), place.denominator);
-    result.x_numerator /= common;
-    result.y_numerator /= common;
-    result.denominator = place.denominator / common;
-    return result;
+    const Quotient x = part_of(whole.x, place);
+    const Quotient y = part_of(whole.y, place);
+    const std::int64_t common = common_divisor(x.rest, y.rest, place.denominator);
+    return {
+        {static_cast<std::int32_t>(a.x + x.whole), static_cast<std::int32_t>(a.y + y.whole)},
+        x.rest / common,
+        y.rest / common,
+        place.denominator / common};
 }
 
 int order(const RationalPoint& a, const RationalPoint& b) {

@@ -125,19 +125,18 @@ private:
         if (facets_.triangles.size() + 1 >= too_many)
             refuse(scene_);
         if (facets_.triangles.size() == facets_.triangles.capacity())
-            require_room();
+            require_room(2 * facets_.triangles.size());
         if (turned != visit_->mirrored)
             std::swap(corners[1], corners[2]);
         facets_.triangles.push_back({corners, piece, primitive_, material_});
     }
 
-    /// For twice as many facets, which the list takes next, with what is made of each at once.
-    void require_room() const {
+    /// For so many facets, for which the list makes room next, with what is made of each at once.
+    void require_room(std::size_t count) const {
         constexpr double per_facet = 250;
-        const std::size_t next = 2 * facets_.triangles.size();
         require_memory(
-            per_facet * static_cast<double>(next),
-            "the scene in " + std::to_string(next) + " facets",
+            per_facet * static_cast<double>(count),
+            "the scene in " + std::to_string(count) + " facets",
             "a larger --deviation makes fewer of curved surfaces, and simpler meshes have fewer");
     }
 
@@ -171,7 +170,26 @@ private:
             add_triangle({first + triple[0], first + triple[1], first + triple[2]}, 0, turned);
     }
 
+    /// Room for so many more, and for twice as many as there are: many small meshes take no longer.
+    template <typename T>
+    static std::size_t room_for(const std::vector<T>& list, std::size_t more) {
+        return std::max(list.size() + more, 2 * list.size());
+    }
+
+    void reserve_for(const Mesh& mesh) {
+        const std::size_t count = mesh.triangle_count();
+        if (facets_.triangles.size() + count > facets_.triangles.capacity()) {
+            const std::size_t room = room_for(facets_.triangles, count);
+            require_room(room);
+            facets_.triangles.reserve(room);
+        }
+        const std::size_t corners = std::min(mesh.positions.size(), 3 * count);
+        if (facets_.corners.size() + corners > facets_.corners.capacity())
+            facets_.corners.reserve(room_for(facets_.corners, corners));
+    }
+
     void add_mesh(const Mesh& mesh, Outside outside) {
+        reserve_for(mesh);
         mesh_corners_.assign(mesh.positions.size(), no_corner);
         const auto& normal_indices =
             mesh.normal_indices.empty() ? mesh.position_indices : mesh.normal_indices;

@@ -11,8 +11,8 @@ struct CellCounts {
     std::uint64_t touched = 0; ///< cells of each triangle, those in which it is hidden as well
     std::uint64_t entries = 0; ///< of the cells' lists
     std::uint64_t edges = 0;
-    std::uint64_t edge_cells = 0; ///< passed until one was not blocked: an edge lies hidden or not
-    std::uint64_t followed = 0;   ///< edges that are not hidden as a whole
+    std::uint64_t edge_cells = 0;     ///< asked whether an edge is hidden there
+    std::uint64_t followed = 0;       ///< edges that are not hidden as a whole
     std::uint64_t followed_cells = 0; ///< of these edges
     std::uint64_t looked_at = 0;      ///< entries of the lists there
     std::uint64_t candidates = 0;     ///< different triangles there, which edges were compared with

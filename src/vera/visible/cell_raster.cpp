@@ -21,13 +21,28 @@ namespace vera {
 
 namespace {
 
-/// Whether the edge is a point, or lies behind what covers all its cells, if it is so near.
-bool is_hidden(const CellRaster& raster, const ScreenEdges::Edge& edge, double near) {
+/// Of an edge that is so near, which eighths lie behind what covers their cells; all of a point.
+/// Calls visit() for each cell that is looked at.
+template <typename Visit>
+std::uint8_t hidden_eighths(
+    const CellRaster& raster, const ScreenEdges::Edge& edge, double near, const Visit& visit) {
     const ScreenPoint a = raster.scene.vertices[edge.begin].point;
     const ScreenPoint b = raster.scene.vertices[edge.end].point;
-    return a == b || for_each_cell_along(raster.cells, a, b, [&](std::size_t cell) {
-               return near < raster.cells.blocked[cell];
-           });
+    std::uint8_t hidden = all_eighths;
+    if (a == b)
+        return hidden;
+    const SegmentSlices slices(raster.cells, a, b);
+    const std::int32_t count = slices.count();
+    slices.for_each([&](const CellSlice& slice) {
+        const std::uint8_t eighth = eighth_of(slice.number, count);
+        if ((hidden & eighth) != 0 && !for_each_cell_of(slice, [&](std::size_t cell) {
+                visit();
+                return near < raster.cells.blocked[cell];
+            }))
+            hidden = static_cast<std::uint8_t>(hidden & ~eighth);
+        return true;
+    });
+    return hidden;
 }
 
 /// Of each edge how near it is in the planes of all triangles that have it.
@@ -163,11 +178,12 @@ CellRaster raster_of(
     raster.shadow_cells = shadow_cells_of(raster.cells, scene, raster.slopes, cancel);
     next_stage();
     const std::vector<double> nearness = nearness_of_edges(raster);
-    raster.is_hidden.resize(raster.edges.edges.size());
-    parallel_ranges(raster.is_hidden.size(), 4096, [&](std::size_t first, std::size_t last) {
+    raster.hidden_eighths.resize(raster.edges.edges.size());
+    parallel_ranges(raster.hidden_eighths.size(), 4096, [&](std::size_t first, std::size_t last) {
         stop_if_raised(cancel);
         for (std::size_t i = first; i < last; ++i)
-            raster.is_hidden[i] = is_hidden(raster, raster.edges.edges[i], nearness[i]) ? 1 : 0;
+            raster.hidden_eighths[i] =
+                hidden_eighths(raster, raster.edges.edges[i], nearness[i], [] {});
     });
     return raster;
 }
@@ -203,12 +219,11 @@ struct MarkedEdge {
 std::vector<MarkedEdge> marked_edges(const CellRaster& raster, double& distance) {
     constexpr double least_marks = 512;
     constexpr double edges_per_mark = 256;
+    const double cell = std::ldexp(1.0, raster.cells.shift);
     const auto weight_of = [&](const ScreenEdges::Edge& edge) {
         const ScreenStep along =
             step(raster.scene.vertices[edge.begin].point, raster.scene.vertices[edge.end].point);
-        return 1
-            + static_cast<double>(std::abs(along.x) + std::abs(along.y))
-            / std::ldexp(1.0, raster.cells.shift);
+        return 1 + static_cast<double>(std::abs(along.x) + std::abs(along.y)) / cell;
     };
     const std::vector<ScreenEdges::Edge>& edges = raster.edges.edges;
     double whole = 0;
@@ -340,17 +355,8 @@ void count_cells(const CellRaster& raster, CellCounts& counts) {
             ++counts.touched;
         });
     const std::vector<double> nearness = nearness_of_edges(raster);
-    for (std::size_t i = 0; i < raster.edges.edges.size(); ++i) {
-        const auto& [begin, end] = raster.edges.edges[i];
-        for_each_cell_along(
-            raster.cells,
-            raster.scene.vertices[begin].point,
-            raster.scene.vertices[end].point,
-            [&](std::size_t cell) {
-                ++counts.edge_cells;
-                return nearness[i] < raster.cells.blocked[cell];
-            });
-    }
+    for (std::size_t i = 0; i < raster.edges.edges.size(); ++i)
+        hidden_eighths(raster, raster.edges.edges[i], nearness[i], [&] { ++counts.edge_cells; });
 }
 
 void sort_pairs(std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs) {

@@ -148,44 +148,101 @@ nearest_for_hiding(const NearnessSlope& slope, const std::array<ScreenPoint, Cou
     return nearest + hidden_margin(slope);
 }
 
+/// The cells that a part of a segment touches, and perhaps some beside it: of one column where the
+/// segment is wider than high, else of one row.
+struct CellSlice {
+    std::int32_t number = 0; ///< of the slice along the segment, the lowest first
+    std::int64_t enters = 0; ///< coordinates along which the segment is longer, of the part's ends
+    std::int64_t leaves = 0;
+    std::size_t first = 0; ///< cell; others follow at equal distances
+    std::size_t distance = 1;
+    std::int32_t count = 0;
+};
+
+/// A segment in the axes along which it is longer, and across; from its lower end along these.
+class SegmentSlices {
+public:
+    SegmentSlices(const Cells& cells, ScreenPoint a, ScreenPoint b)
+        : cells_(cells) {
+        const ScreenStep whole = step(a, b);
+        by_columns_ = (whole.x < 0 ? -whole.x : whole.x) >= (whole.y < 0 ? -whole.y : whole.y);
+        const bool is_upward = along(a) <= along(b);
+        low_ = is_upward ? a : b;
+        high_ = is_upward ? b : a;
+        first_ = cells.cell_of(along(low_));
+        last_ = cells.cell_of(along(high_));
+    }
+
+    /// The coordinate along the segment.
+    std::int32_t along(ScreenPoint p) const { return by_columns_ ? p.x : p.y; }
+
+    std::int32_t count() const { return last_ - first_ + 1; }
+
+    /// Calls visit(CellSlice) for the slices in their order, until that returns false; true where
+    /// it never did.
+    template <typename Visit>
+    bool for_each(const Visit& visit) const {
+        const std::int64_t length = along(high_) - along(low_);
+        const std::int64_t rise = across(high_) - across(low_);
+        const auto height = [&](std::int64_t at) {
+            return length == 0 ? across(low_) : across(low_) + rise * (at - along(low_)) / length;
+        };
+        std::int64_t enters = along(low_);
+        std::int64_t from = height(enters);
+        for (std::int32_t i = first_; i <= last_; ++i) {
+            const std::int64_t leaves =
+                i == last_ ? along(high_) : std::int64_t{i + 1} << cells_.shift;
+            const std::int64_t to = height(leaves);
+            // A segment on the border of two rows of cells touches both.
+            const std::int64_t lowest = std::max<std::int64_t>(std::min(from, to) - 1, 0);
+            const std::int64_t highest =
+                std::min<std::int64_t>(std::max(from, to) + 1, screen_size);
+            const std::int32_t low = cells_.cell_of(static_cast<std::int32_t>(lowest));
+            const std::int32_t high = cells_.cell_of(static_cast<std::int32_t>(highest));
+            const auto per_side = static_cast<std::size_t>(cells_.per_side);
+            if (!visit(CellSlice{
+                    i - first_,
+                    enters,
+                    leaves,
+                    by_columns_ ? cells_.number(i, low) : cells_.number(low, i),
+                    by_columns_ ? per_side : 1,
+                    high - low + 1}))
+                return false;
+            enters = leaves;
+            from = to;
+        }
+        return true;
+    }
+
+private:
+    std::int32_t across(ScreenPoint p) const { return by_columns_ ? p.y : p.x; }
+
+    const Cells& cells_;
+    bool by_columns_ = false;
+    ScreenPoint low_;
+    ScreenPoint high_;
+    std::int32_t first_ = 0;
+    std::int32_t last_ = 0;
+};
+
+/// Calls visit(number of the cell) for the cells of the slice, until that returns false; true where
+/// it never did.
+template <typename Visit>
+bool for_each_cell_of(const CellSlice& slice, const Visit& visit) {
+    std::size_t cell = slice.first;
+    for (std::int32_t i = 0; i < slice.count; ++i, cell += slice.distance)
+        if (!visit(cell))
+            return false;
+    return true;
+}
+
 /// Calls visit(number of the cell) for the cells that the segment from a to b touches, until that
 /// returns false; true where it never did.
 template <typename Visit>
 bool for_each_cell_along(const Cells& cells, ScreenPoint a, ScreenPoint b, const Visit& visit) {
-    const ScreenStep whole = step(a, b);
-    const bool by_columns =
-        (whole.x < 0 ? -whole.x : whole.x) >= (whole.y < 0 ? -whole.y : whole.y);
-    // In axes along which the segment is longer, and across.
-    const auto along = [&](ScreenPoint p) { return by_columns ? p.x : p.y; };
-    const auto across = [&](ScreenPoint p) { return by_columns ? p.y : p.x; };
-    const ScreenPoint low = along(a) <= along(b) ? a : b;
-    const ScreenPoint high = along(a) <= along(b) ? b : a;
-    const std::int64_t length = along(high) - along(low);
-    const std::int64_t rise = across(high) - across(low);
-    const auto visit_run = [&](std::int32_t slice, std::int64_t from, std::int64_t to) {
-        // A segment on the border of two rows of cells touches both.
-        const std::int64_t lowest = std::max<std::int64_t>(std::min(from, to) - 1, 0);
-        const std::int64_t highest = std::max(from, to) + 1;
-        const std::int32_t last =
-            cells.cell_of(static_cast<std::int32_t>(std::min<std::int64_t>(highest, screen_size)));
-        for (std::int32_t i = cells.cell_of(static_cast<std::int32_t>(lowest)); i <= last; ++i)
-            if (!visit(by_columns ? cells.number(slice, i) : cells.number(i, slice)))
-                return false;
-        return true;
-    };
-    const std::int32_t last = cells.cell_of(along(high));
-    for (std::int32_t slice = cells.cell_of(along(low)); slice <= last; ++slice) {
-        const std::int64_t enters =
-            std::max<std::int64_t>(along(low), std::int64_t{slice} << cells.shift);
-        const std::int64_t leaves =
-            std::min<std::int64_t>(along(high), std::int64_t{slice + 1} << cells.shift);
-        const auto height = [&](std::int64_t at) {
-            return length == 0 ? across(low) : across(low) + rise * (at - along(low)) / length;
-        };
-        if (!visit_run(slice, height(enters), height(leaves)))
-            return false;
-    }
-    return true;
+    return SegmentSlices(cells, a, b).for_each([&](const CellSlice& slice) {
+        return for_each_cell_of(slice, visit);
+    });
 }
 
 } // namespace vera

@@ -22,7 +22,9 @@ struct CellRaster {
     ScreenEdges edges;
     Cells cells; ///< of surfaces
     ShadowCells shadow_cells;
-    std::vector<std::uint8_t> is_hidden; ///< edges that lie behind what covers all their cells
+    /// Of edges, which eighths of the slices of cells along them lie behind what covers these
+    /// cells: see eighth_of(). Of those of fewer slices the last bits are set.
+    std::vector<std::uint8_t> hidden_eighths;
     std::vector<std::uint8_t> inner;     ///< as is_inner(); or empty
     std::vector<std::uint32_t> shadowed; ///< as shadowed_source(); or empty: there is no shadow
     std::vector<std::uint8_t> is_near_change; ///< of edges; empty: all are
@@ -42,6 +44,14 @@ struct CellRaster {
 
 constexpr std::uint32_t several_sources = no_source - 1;
 
+constexpr std::uint8_t all_eighths = 0xff;
+
+/// The bit of the slice among those that a byte has for so many slices.
+constexpr std::uint8_t eighth_of(std::int32_t slice, std::int32_t slices) {
+    return static_cast<std::uint8_t>(
+        1U << (slices <= 8 ? slice : 8 * std::int64_t{slice} / slices));
+}
+
 constexpr std::uint32_t no_edge = ~std::uint32_t{0};
 
 /// Follows one edge after another: what a thread needs for it.
@@ -49,6 +59,7 @@ class EdgeSweep {
 public:
     explicit EdgeSweep(const CellRaster& raster)
         : raster_(raster)
+        , may_be_shadow_(!raster.shadowed.empty())
         , seen_(raster.scene, raster.slopes)
         , stamps_(raster.scene.triangles.size()) {}
 
@@ -101,10 +112,15 @@ private:
 
     bool gather(std::uint32_t edge);
     template <typename List, typename DoesMatter>
-    void classify_along(const List& list, const DoesMatter& does_matter);
+    void classify_along(
+        const List& list, const DoesMatter& does_matter, std::uint8_t hidden_eighths = 0);
+    void hide_between(std::int64_t first, std::int64_t last);
     void classify(std::uint32_t triangle);
     void
     add_beside(std::uint32_t triangle, const std::array<ScreenPoint, 3>& corners, std::size_t side);
+    SegmentPlace crossing_of_side(
+        ScreenPoint corner, ScreenPoint next, std::int64_t side, std::int64_t next_side) const;
+    std::array<SegmentPlace, 2> places_of_touching(const Across& across);
     void add_across(const Across& across);
     void add_all_across();
     void add_touch(ScreenPoint corner);
@@ -144,11 +160,13 @@ private:
     }
 
     const CellRaster& raster_;
+    bool may_be_shadow_; ///< a triangle
     SeenBeside seen_;
     std::vector<std::uint32_t> stamps_; ///< of triangles: the last edge that they were gathered for
     std::uint32_t stamp_ = 0;
     std::vector<Across> across_;
     std::vector<Cover> covers_;
+    std::vector<Cover> hidden_slices_;  ///< covers by no triangle
     std::vector<SegmentPlace> touches_; ///< where a triangle has a corner on the edge
     std::vector<Event> events_;
     std::vector<std::uint32_t> active_; ///< covers by surfaces
@@ -160,6 +178,9 @@ private:
     std::uint32_t hidden_by_ = no_cover; ///< on both sides of the part of the edge before
     ScreenPoint begin_;
     ScreenPoint end_;
+    ScreenStep way_;    ///< from begin to end
+    ScreenPoint least_; ///< of both
+    ScreenPoint most_;
     VisiblePieces* result_ = nullptr;
     CellCounts counts_;
 };

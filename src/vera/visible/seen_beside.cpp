@@ -18,7 +18,7 @@ void SeenBeside::follow(ScreenPoint begin, ScreenPoint end) {
     bit_ = {part * x, part * y};
 }
 
-void SeenBeside::find_front(std::uint8_t side, Front& front) const {
+void SeenBeside::find_front(std::uint8_t side, Front& front) {
     std::uint32_t foremost = foremost_;
     for (const std::uint32_t i : on_one_side_)
         if ((candidates_[i].sides & side) != 0 && (foremost == nothing || is_before(i, foremost)))
@@ -30,10 +30,12 @@ void SeenBeside::find_front(std::uint8_t side, Front& front) const {
     if (front.size() < 2)
         return;
     // What is hidden by something hidden is hidden by what hides that as well.
-    const Front all = front;
+    in_front_.clear();
+    for (const InFront& one : front)
+        in_front_.push_back(one.candidate);
     std::erase_if(front, [&](const InFront& one) {
-        return std::any_of(all.begin(), all.end(), [&](const InFront& other) {
-            return candidates_[other.candidate].hides(candidates_[one.candidate]);
+        return std::any_of(in_front_.begin(), in_front_.end(), [&](std::uint32_t other) {
+            return candidates_[other].hides(candidates_[one.candidate]);
         });
     });
 }

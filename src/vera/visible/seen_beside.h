@@ -114,7 +114,7 @@ private:
 
     using Front = std::vector<InFront>;
 
-    void find_front(std::uint8_t side, Front& front) const;
+    void find_front(std::uint8_t side, Front& front);
     bool has_one_sided(const Front& front) const;
     void put_in_order(Front& front) const;
     std::uint32_t find_in(Front& front);
@@ -131,6 +131,7 @@ private:
     std::vector<std::uint32_t> on_one_side_; ///< candidates
     std::uint32_t foremost_ = nothing;       ///< of those on both, as is_before() tells
     std::array<Front, 2> fronts_;            ///< on the left and on the right
+    std::vector<std::uint32_t> in_front_;    ///< candidates of one of these
     bool changes_ = false; ///< somebody comes to be in front of somebody on the way
     std::vector<std::pair<std::uint32_t, std::uint32_t>>* penetrating_ = nullptr;
     std::uint64_t comparisons_ = 0;

@@ -161,6 +161,8 @@ void block_by_sheets(Cells& cells, const SheetScene& sheets, const CancelFlag* c
     // In longer lists there is hardly a cell without a border, and joining takes long.
     constexpr std::size_t longest = 256;
     const std::vector<std::uint8_t> joined = joined_triangles(sheets);
+    if (std::find(joined.begin(), joined.end(), 1) == joined.end())
+        return;
     std::vector<std::uint32_t> ends(cells.starts.begin() + 1, cells.starts.end());
     const auto block = [&](std::size_t cell, SheetsOfCell& sheets_of_cell) {
         const auto triangles = cells.triangles_of(cell);

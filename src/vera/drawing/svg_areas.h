@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// Areas of a drawing as elements of an SVG, without the outlines in between that areas of their own
+// would be.
+#pragma once
+
+#include "vera/base/parallel.h"
+#include "vera/drawing/drawing_file.h"
+#include "vera/drawing/snapped_path.h"
+
+#include <cstddef>
+#include <string>
+
+namespace vera::detail {
+
+/// "#rgb" where that says it, else "#rrggbb".
+std::string css_color(DrawingColor color);
+
+/// Adds a path for each of the areas from number first to before last of which something is left
+/// after rounding, as outline_of() them would be written.
+void add_svg_areas(
+    const SharedAreas& areas,
+    const Lattice& lattice,
+    std::size_t first,
+    std::size_t last,
+    std::string& text);
+
+/// As write_svg(), into a file: never is the whole text in memory. The caller commits.
+void write_svg_file(
+    const Drawing& drawing,
+    const DrawingSettings& settings,
+    OutputFile& file,
+    const Progress& progress,
+    const CancelFlag* cancel);
+
+} // namespace vera::detail
