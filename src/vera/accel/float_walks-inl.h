@@ -125,6 +125,8 @@ HWY_INLINE bool take_meetings(
                     ray.place = place;
                     continue;
                 }
+                if (near[j] > ray.limit)
+                    continue; // behind what was met in the same leaf
             }
         }
         const std::uint32_t element = element_at(search.tree, first, place);
