@@ -91,18 +91,16 @@ HWY_INLINE bool follow_single(const Search<Tree>& search, std::size_t octant, Si
                     return false;
                 continue;
             }
-            const auto child = [&](int number) {
-                return node.children[static_cast<std::size_t>(number)];
-            };
+            const auto first = static_cast<std::size_t>(std::countr_zero(met));
             if ((met & (met - 1)) == 0) {
-                next = child(std::countr_zero(met));
+                next = node.children[first];
                 continue;
             }
             if constexpr (any) {
-                next = child(std::countr_zero(met));
+                next = node.children[first];
                 for (met &= met - 1; met != 0; met ^= std::bit_floor(met))
-                    stack.children[stack.size++] =
-                        TreeChild::waiting(child(std::bit_width(met) - 1), 0);
+                    stack.children[stack.size++] = TreeChild::waiting(
+                        node.children[static_cast<std::size_t>(std::bit_width(met) - 1)], 0);
             } else {
                 const PutChildren put =
                     put_met_children(node, octant, near_at, far_at, stack.children + stack.size);

@@ -98,7 +98,7 @@ HWY_INLINE PutChildren put_met_children(
     alignas(64) TreeChild all[tree_width];
     _mm512_store_si512(all, in_order);
     const std::uint32_t bits = met;
-    const int last = (std::bit_width(bits) - 1) & static_cast<int>(tree_width - 1);
+    const std::size_t last = static_cast<std::size_t>(std::bit_width(bits) - 1) % tree_width;
     return {static_cast<std::uint32_t>(std::popcount(bits)), all[last]};
 #else
     const Children d;
