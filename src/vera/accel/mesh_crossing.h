@@ -78,6 +78,16 @@ inline std::optional<double> end_in_bounds(const Ray& ray, Vec3 a, Vec3 b, Vec3 
 /// or, since that is badly known of rays that all but lie in it, where they leave the bounds.
 inline std::optional<MeshCrossing>
 mesh_crossing(const PreparedRay& prepared, Vec3 a, Vec3 b, Vec3 c) {
+    const Ray& ray = prepared.ray;
+    const MeshCrossing crossing = plane_crossing(ray.origin, ray.direction, a, b, c);
+    const double size =
+        max_component(abs(b - a)) * max_component(abs(c - a)) * max_component(abs(ray.direction));
+    const double speed = std::abs(dot(cross(b - a, c - a), ray.direction));
+    constexpr double well_known = 0x1p-20;
+    const bool known = speed > well_known * size;
+    // Most of what is asked about is the face that a ray starts beside: this settles it.
+    if (known && !prepared.covers(crossing.t))
+        return std::nullopt;
     const ShearedPoint p = sheared(prepared, a);
     const ShearedPoint q = sheared(prepared, b);
     const ShearedPoint r = sheared(prepared, c);
@@ -89,20 +99,14 @@ mesh_crossing(const PreparedRay& prepared, Vec3 a, Vec3 b, Vec3 c) {
     const double area = u + v + w;
     if (area == 0)
         return std::nullopt;
-    const Ray& ray = prepared.ray;
     const std::optional<double> end = end_in_bounds(ray, a, b, c);
     if (!end)
         return std::nullopt;
-    MeshCrossing crossing = plane_crossing(ray.origin, ray.direction, a, b, c);
-    const double size =
-        max_component(abs(b - a)) * max_component(abs(c - a)) * max_component(abs(ray.direction));
-    const double speed = std::abs(dot(cross(b - a, c - a), ray.direction));
-    constexpr double well_known = 0x1p-20;
-    if (!(speed > well_known * size))
-        crossing = {*end, v / area, w / area};
-    if (!prepared.covers(crossing.t))
+    if (known)
+        return crossing;
+    if (!prepared.covers(*end))
         return std::nullopt;
-    return crossing;
+    return MeshCrossing{*end, v / area, w / area};
 }
 
 /// The coordinates of a triangle's corners, one corner after the other.
