@@ -84,8 +84,7 @@ HWY_INLINE bool follow_single(const Search<Tree>& search, std::size_t octant, Si
             for (std::size_t i = 0; i < tree_width; i += hn::Lanes(d))
                 met |= bits_of(d, hn::Le(near_at(i), far_at(i))) << i;
             // With branches, which the processor follows before it knows, it has the memory of what
-            // is next under way. Two thirds of the nodes have one child that is met, and do not go
-            // through the stack.
+            // is next under way. Of most nodes one child is met, which need not wait on the stack.
             if (met == 0) {
                 if (!stack.take(ray.limit, next))
                     return false;
