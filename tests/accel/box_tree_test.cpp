@@ -92,8 +92,17 @@ public:
     }
 
 private:
-    void inspect_node(std::size_t number, std::size_t level, const FloatBox& outer) {
-        ASSERT_LT(number, tree_.nodes.size());
+    /// What rays find in a part of the tree, by the boxes of its references, and what it costs: the
+    /// surfaces of its nodes and leaves.
+    struct Part {
+        double content = 0;
+        double cost = 0;
+    };
+
+    Part inspect_node(std::size_t number, std::size_t level, const FloatBox& outer) {
+        EXPECT_LT(number, tree_.nodes.size());
+        if (number >= tree_.nodes.size())
+            return {};
         const WideNode& node = tree_.nodes[number];
         ++nodes_;
         levels_ = std::max(levels_, level);
@@ -103,28 +112,52 @@ private:
         EXPECT_GE(count, number == 0 ? 1U : 2U);
         for (std::size_t i = count; i < detail::tree_width; ++i)
             EXPECT_TRUE(is_empty(box_of(node, i)));
+        Part whole;
+        Part before = {HUGE_VAL, 1};
         for (std::size_t i = 0; i < count; ++i) {
             const FloatBox box = box_of(node, i);
             EXPECT_TRUE(holds(outer, box));
-            if (node.children[i].is_block() != 0)
-                inspect_leaf(node.children[i], box);
-            else
-                inspect_node(node.children[i].first(), level + 1, box);
+            Part part = node.children[i].is_block() != 0
+                ? inspect_leaf(node.children[i], box)
+                : inspect_node(node.children[i].first(), level + 1, box);
+            part.cost += static_cast<double>(surface(box));
+            EXPECT_TRUE(may_follow(before, part)) << before.content << " " << part.content;
+            before = part;
+            whole.content += part.content;
+            whole.cost += part.cost;
         }
         inspect_orders(node, count);
+        return whole;
     }
 
-    void inspect_leaf(TreeChild leaf, const FloatBox& box) {
+    /// Whether rays that ask for anything may come to the second part after the first, since they
+    /// find no more there for what it costs: but for what is rounded, and where it is too much or
+    /// too little for floats.
+    static bool may_follow(const Part& first, const Part& second) {
+        constexpr double most = 1e36;
+        constexpr double least = 1e-36;
+        for (const Part& part : {first, second})
+            if (!(part.cost < most && part.cost > least))
+                return true;
+        return second.content / second.cost <= first.content / first.cost * 1.001;
+    }
+
+    Part inspect_leaf(TreeChild leaf, const FloatBox& box) {
         ++leaves_;
         const std::size_t size = leaf.kind() + 1;
         EXPECT_EQ(leaf.count(), 1U);
         EXPECT_LE(size, leaf_size_);
-        ASSERT_LE(leaf.first() + size, tree_.references.size());
+        EXPECT_LE(leaf.first() + size, tree_.references.size());
+        if (leaf.first() + size > tree_.references.size())
+            return {};
+        Part part;
         for (std::size_t i = leaf.first(); i < leaf.first() + size; ++i) {
             EXPECT_TRUE(holds(box, tree_.references[i].box()));
             EXPECT_EQ(tree_.references[i].kind, tree_.references[leaf.first()].kind);
             ++times_in_leaves_[i];
+            part.content += static_cast<double>(surface(tree_.references[i].box()));
         }
+        return part;
     }
 
     /// In each order every child is named once, and those that are there before the others; in that
@@ -132,12 +165,15 @@ private:
     static void inspect_orders(const WideNode& node, std::size_t count) {
         for (std::size_t order = 0; order <= detail::any_order; ++order) {
             std::vector<std::size_t> numbers;
-            for (const TreeChild child : node.children)
-                numbers.push_back(child.in_order(order));
-            EXPECT_TRUE(std::all_of(
-                numbers.begin(),
-                numbers.begin() + static_cast<std::ptrdiff_t>(count),
-                [&](std::size_t number) { return number < count; }));
+            for (std::size_t place = 0; place < detail::tree_width; ++place)
+                numbers.push_back(waiting_at(node, place, order));
+            // Absent children are not met, wherever they stand in the order of all numbers.
+            EXPECT_TRUE(
+                order == detail::any_order
+                || std::all_of(
+                    numbers.begin(),
+                    numbers.begin() + static_cast<std::ptrdiff_t>(count),
+                    [&](std::size_t number) { return number < count; }));
             for (std::size_t i = 1; order < detail::octant_count && i < count; ++i)
                 EXPECT_TRUE(is_not_before(
                     place(node, numbers[i - 1], order), place(node, numbers[i], order)));
@@ -379,6 +415,20 @@ TEST(BoxTree, FillsItsNodes) {
         EXPECT_EQ(build_box_tree(cubes(8), 1, nullptr, effort).nodes.size(), 73U);
         EXPECT_EQ(build_box_tree(cubes(8), 8, nullptr, effort).nodes.size(), 9U);
     }
+}
+
+TEST(BoxTree, PutsWhatRaysRatherHitFirst) {
+    // The boxes are all alike: what is in them decides.
+    const std::vector<float> contents = {0.25F, 0.5F, 0.25F, 1, 0, 0.5F, 2, std::nanf("")};
+    const BoxTree tree = build_box_tree(cubes(2), 1, nullptr, TreeEffort::usual, contents);
+    ASSERT_EQ(tree.nodes.size(), 1U);
+    std::vector<float> found;
+    for (const TreeChild child : tree.nodes[0].children)
+        found.push_back(contents[tree.references[child.first()].element]);
+    // What is no number counts as nothing.
+    std::replace_if(
+        found.begin(), found.end(), [](float value) { return std::isnan(value); }, 0);
+    EXPECT_EQ(found, std::vector<float>({2, 1, 0.5F, 0.5F, 0.25F, 0.25F, 0, 0}));
 }
 
 TEST(BoxTree, IsBetterWithHighEffort) {

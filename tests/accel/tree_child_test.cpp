@@ -11,13 +11,13 @@ TEST(TreeChild, HoldsWhatItIsAndTheOrdersOfItsPlace) {
         for (std::uint64_t kind = 0; kind < 8; ++kind)
             for (std::size_t count = 1; count <= block_width; ++count) {
                 TreeChild child = TreeChild::block(first, kind, count);
-                for (std::size_t order = 0; order <= any_order; ++order)
+                for (std::size_t order = 0; order < octant_count; ++order)
                     child.set_order(order, (order + kind) % tree_width);
                 EXPECT_EQ(child.is_block(), 1U);
                 EXPECT_EQ(child.first(), first);
                 EXPECT_EQ(child.kind(), kind);
                 EXPECT_EQ(child.count(), count);
-                for (std::size_t order = 0; order <= any_order; ++order)
+                for (std::size_t order = 0; order < octant_count; ++order)
                     EXPECT_EQ(child.in_order(order), (order + kind) % tree_width);
             }
     EXPECT_EQ(TreeChild::node(TreeChild::most - 1).is_block(), 0U);
@@ -26,7 +26,7 @@ TEST(TreeChild, HoldsWhatItIsAndTheOrdersOfItsPlace) {
 
 TEST(TreeChild, WaitsInTheOrderOfWhereItsBoxIsEntered) {
     TreeChild child = TreeChild::block(TreeChild::most - 1, 7, block_width);
-    child.set_order(any_order, 7);
+    child.set_order(octant_count - 1, 7);
     const TreeChild at_once = TreeChild::waiting(child, 0);
     const TreeChild soon = TreeChild::waiting(TreeChild::node(0), 0.001F);
     const TreeChild later = TreeChild::waiting(child, 1.5F);

@@ -36,10 +36,15 @@ void fill_costs_below(BinaryNode& node) {
 
 class Builder {
 public:
-    Builder(std::vector<BoxReference>& references, std::size_t leaf_size, const CancelFlag* cancel)
+    Builder(
+        std::vector<BoxReference>& references,
+        std::size_t leaf_size,
+        const CancelFlag* cancel,
+        std::span<const float> contents)
         : references_(references)
         , leaf_size_(leaf_size)
-        , cancel_(cancel) {}
+        , cancel_(cancel)
+        , contents_(contents) {}
 
     void build(TreeEffort effort) {
         // About so many subtrees for the threads, their number not depending on that of the
@@ -85,6 +90,10 @@ private:
 
     std::span<const BoxReference> references_of(const ReferenceRange& range) const {
         return std::span<const BoxReference>(references_).subspan(range.first, range.size());
+    }
+
+    float content_of(const BoxReference& reference) const {
+        return contents_.empty() ? surface(reference.box()) : contents_[reference.element];
     }
 
     /// Whether the range makes a leaf as it is.
@@ -133,7 +142,7 @@ private:
             node.first = static_cast<std::uint32_t>(range.first);
             node.size = static_cast<std::uint32_t>(range.size());
             for (const BoxReference& reference : references_of(range))
-                node.content += surface(reference.box());
+                node.content += content_of(reference);
             fill_costs(node);
             return;
         }
@@ -157,6 +166,7 @@ private:
     std::vector<BoxReference>& references_;
     std::size_t leaf_size_;
     const CancelFlag* cancel_;
+    std::span<const float> contents_;
     Nodes top_; ///< the first is the root
     std::vector<Nodes> below_;
 };
@@ -167,7 +177,8 @@ BoxTree build_box_tree(
     std::vector<BoxReference> references,
     std::size_t leaf_size,
     const CancelFlag* cancel,
-    TreeEffort effort) {
+    TreeEffort effort,
+    std::span<const float> contents) {
     VERA_CHECK(leaf_size >= 1 && leaf_size <= tree_width);
     // There are no more nodes than references: each but the root has at least two children.
     if (references.size() > TreeChild::most)
@@ -175,7 +186,7 @@ BoxTree build_box_tree(
     BoxTree tree;
     tree.references = std::move(references);
     if (!tree.references.empty()) {
-        Builder builder(tree.references, leaf_size, cancel);
+        Builder builder(tree.references, leaf_size, cancel, contents);
         builder.build(effort);
         make_wide_nodes(builder.root(), tree);
     }

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 namespace vera::detail {
@@ -60,12 +61,14 @@ enum class TreeEffort : std::uint8_t {
 };
 
 /// Puts the references into a tree with leaves of at most leaf_size (1 to 8) of them: the same
-/// whatever the number of threads. Throws Cancelled; std::length_error where there are too many
-/// references for TreeChild.
+/// whatever the number of threads. contents are half of the surface of each element, by its number,
+/// which tells how likely a ray meets it; where there are none, that of its box is taken. Throws
+/// Cancelled; std::length_error where there are too many references for TreeChild.
 BoxTree build_box_tree(
     std::vector<BoxReference> references,
     std::size_t leaf_size,
     const CancelFlag* cancel,
-    TreeEffort effort = TreeEffort::usual);
+    TreeEffort effort = TreeEffort::usual,
+    std::span<const float> contents = {});
 
 } // namespace vera::detail

@@ -5,6 +5,8 @@
 #include "vera/base/parallel.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -69,6 +71,21 @@ void share_out(const BinaryNode& node, std::size_t count, Children& children) {
     children.nodes[children.count++] = &node;
 }
 
+/// How much of a hit a ray that meets the node's box may expect for each visit of what is below.
+float yield(const BinaryNode& node) {
+    const float hits = node.content / node.costs[0];
+    return hits > 0 ? hits : 0; // where surfaces are 0, or infinite, it may be no number
+}
+
+/// Puts them in the order for rays that ask for anything.
+void put_in_order(Children& children) {
+    const auto first = children.nodes.begin();
+    std::stable_sort(
+        first,
+        first + static_cast<std::ptrdiff_t>(children.count),
+        [](const BinaryNode* a, const BinaryNode* b) { return yield(*a) > yield(*b); });
+}
+
 /// A child that is made later, on any thread.
 struct Deferred {
     std::size_t node = 0;
@@ -87,12 +104,11 @@ public:
         nodes.emplace_back();
         Children children;
         share_out(root, tree_width, children);
+        put_in_order(children);
         WideNode node = empty_node();
-        std::array<float, tree_width> fullness = {};
         for (std::size_t i = 0; i < children.count; ++i) {
             const BinaryNode& child = *children.nodes[i];
             set_box(node, i, child.box);
-            fullness[i] = child.content / surface(child.box);
             if (child.is_leaf()) {
                 node.children[i] = TreeChild::block(child.first, child.size - 1, 1);
                 ++leaves;
@@ -102,7 +118,7 @@ public:
                 node.children[i] = TreeChild::node(make(child, level + 1, deferred_size));
             }
         }
-        set_orders(node, children.count, fullness);
+        set_orders(node, children.count);
         nodes[number] = node;
         return number;
     }

@@ -13,7 +13,7 @@ namespace vera::detail {
 /// A node of a tree in which each has two children or, as a leaf, none.
 struct BinaryNode {
     FloatBox box;
-    float content = 0;                        ///< the surfaces of the references' boxes
+    float content = 0;                        ///< the sum of the references': see build_box_tree()
     std::array<BinaryNode*, 2> children = {}; ///< null in a leaf
     BinaryNode* parent = nullptr;
     std::uint32_t first = 0;  ///< reference of a leaf
@@ -39,12 +39,14 @@ void join_children(BinaryNode& node);
 void fill_costs(BinaryNode& node);
 
 /// Makes the nodes of the tree of those of a tree of two children each, such that the sum of the
-/// surfaces of nodes and leaves is the least (Ylitie, Karras and Laine 2017).
+/// surfaces of nodes and leaves is the least (Ylitie, Karras and Laine 2017). The children of a
+/// node come by how much of a hit rays may expect there for a visit of a node or leaf, the most
+/// first: that is the order for rays that ask for anything (in the spirit of Ize and Hansen 2011,
+/// RTSAH).
 void make_wide_nodes(const BinaryNode& root, BoxTree& tree);
 
 /// Notes in which order rays come to the node's children, of which there are count. Those of an
-/// octant come to them by where the middles of the boxes lie along the octant's diagonal; those
-/// that ask for anything come first to the ones that are the fullest.
-void set_orders(WideNode& node, std::size_t count, const std::array<float, tree_width>& fullness);
+/// octant come to them by where the middles of the boxes lie along the octant's diagonal.
+void set_orders(WideNode& node, std::size_t count);
 
 } // namespace vera::detail

@@ -62,8 +62,7 @@ HWY_INLINE hn::Vec<Octants> key_of(hn::Vec<Octants> place, std::size_t child, st
             hn::Set(bits, static_cast<std::uint32_t>(child))));
 }
 
-void set_orders_kernel(
-    WideNode& node, std::size_t count, const std::array<float, tree_width>& fullness) {
+void set_orders_kernel(WideNode& node, std::size_t count) {
     const Octants d;
     const Bits bits;
     using V = hn::Vec<Octants>;
@@ -93,15 +92,8 @@ void set_orders_kernel(
                 upper[i] |= std::uint64_t{numbers[lane]} << TreeChild::order_shift_of(first + lane);
         }
     }
-    V keys[tree_width];
     for (std::size_t i = 0; i < tree_width; ++i)
-        keys[i] = key_of(hn::Set(d, -fullness[i]), i, count);
-    sort_keys(keys);
-    for (std::size_t i = 0; i < tree_width; ++i) {
-        hn::Store(hn::And(hn::BitCast(bits, keys[i]), hn::Set(bits, number_bits)), bits, numbers);
-        node.children[i].bits |=
-            upper[i] | std::uint64_t{numbers[0]} << TreeChild::order_shift_of(any_order);
-    }
+        node.children[i].bits |= upper[i];
 }
 
 } // namespace vera::detail::HWY_NAMESPACE
@@ -114,8 +106,8 @@ namespace vera::detail {
 
 HWY_EXPORT(set_orders_kernel);
 
-void set_orders(WideNode& node, std::size_t count, const std::array<float, tree_width>& fullness) {
-    HWY_DYNAMIC_DISPATCH(set_orders_kernel)(node, count, fullness);
+void set_orders(WideNode& node, std::size_t count) {
+    HWY_DYNAMIC_DISPATCH(set_orders_kernel)(node, count);
 }
 
 } // namespace vera::detail

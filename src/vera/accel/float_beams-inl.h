@@ -200,7 +200,7 @@ HWY_INLINE void add_met_children(const WideNode& node, BeamWalk& beam) {
         return hn::Min(
             hn::Min(leave(0, i), leave(1, i)), hn::Min(leave(2, i), hn::Set(d, beam.limit)));
     };
-    beam.size += put_met_children(node, beam.order, near_at, far_at, beam.stack + beam.size);
+    beam.size += put_met_children(node, beam.order, near_at, far_at, beam.stack + beam.size).count;
 }
 
 } // namespace vera::detail::HWY_NAMESPACE

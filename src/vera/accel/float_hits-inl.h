@@ -43,10 +43,14 @@ HWY_NOINLINE typename Tree::Hit decide_doubtful(
     std::uint32_t place,
     std::uint32_t last_doubtful) {
     auto decider = decider_of(search.tree, ray);
+    const auto consider = [&](std::uint32_t of_leaf, std::uint32_t at) {
+        decider.consider(
+            element_at(search.tree, of_leaf, at), given_numbers(search.tree, of_leaf, at));
+    };
     if (place != no_place)
-        decider.consider(element_at(search.tree, leaf, place));
+        consider(leaf, place);
     for (std::uint32_t i = last_doubtful; i != no_doubtful; i = search.space.doubtful[i].before)
-        decider.consider(search.space.doubtful[i].element);
+        consider(search.space.doubtful[i].leaf, search.space.doubtful[i].place);
     return decider.hit();
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Searches a tree of boxes of single precision for what rays meet. Sixteen rays that follow each
 // other and start at one place go through it as a beam (float_beams-inl.h), others in streams of
-// one octant (float_streams-inl.h), one alone by itself (float_singles-inl.h). Single precision
+// one octant (float_streams-inl.h), one alone by itself (float_alone-inl.h). Single precision
 // settles what it is sure of; the rest is decided in double precision, and so are the numbers of
 // each hit. Compiled once for each instruction set, and for each kind of tree: see FloatTree.
 
@@ -12,6 +12,7 @@
 #define VERA_ACCEL_FLOAT_SEARCH_INL_H
 #endif
 
+#include "vera/accel/float_alone-inl.h"
 #include "vera/accel/float_hits-inl.h"
 #include "vera/accel/float_walks-inl.h"
 #include "vera/accel/float_workspace-inl.h"
@@ -158,86 +159,6 @@ HWY_INLINE std::size_t follow_to_any(const Search<Tree>& search, std::span<const
     }
     follow_gathered<true>(search, gathered);
     return groups;
-}
-
-/// What waits for one ray; the next one is on top.
-struct SingleStack {
-    TreeChild* children;
-    std::size_t size;
-
-    /// Takes the next one that is not behind the limit; false when there is none.
-    bool take(float limit, TreeChild& next) {
-        while (size > 0) {
-            next = children[--size];
-            if (next.near() <= limit)
-                return true;
-        }
-        return false;
-    }
-};
-
-/// Follows one ray of an octant down from the root; true when it is only asked whether it meets
-/// anything, and it does.
-template <bool any, typename Tree>
-HWY_INLINE bool follow_single(const Search<Tree>& search, std::size_t octant, SingleRay& ray) {
-    const Tree& tree = search.tree;
-    const Children d;
-    const auto all = [&](float number) HWY_ATTR { return hn::Set(d, number); };
-    const auto places = plane_places[octant];
-    const auto inverse_x = all(ray.inverse[0]);
-    const auto inverse_y = all(ray.inverse[1]);
-    const auto inverse_z = all(ray.inverse[2]);
-    const auto near_x = all(ray.near_offset[0]);
-    const auto near_y = all(ray.near_offset[1]);
-    const auto near_z = all(ray.near_offset[2]);
-    const auto far_x = all(ray.far_offset[0]);
-    const auto far_y = all(ray.far_offset[1]);
-    const auto far_z = all(ray.far_offset[2]);
-    SingleStack stack = {stack_of(search, 0), 0};
-    TreeChild next = TreeChild::node(0);
-    while (true) {
-        while (next.is_block() == 0) {
-            ++search.counts.nodes;
-            const WideNode& node = tree.nodes[next.first()];
-            const float* const planes = node.planes[0].data();
-            const auto plane = [&](std::size_t j, std::size_t i)
-                                   HWY_ATTR { return hn::Load(d, planes + places[j] + i); };
-            const auto near_at = [&](std::size_t i) HWY_ATTR {
-                return hn::Max(
-                    hn::Max(
-                        hn::MulAdd(plane(0, i), inverse_x, near_x),
-                        hn::MulAdd(plane(1, i), inverse_y, near_y)),
-                    hn::Max(hn::MulAdd(plane(2, i), inverse_z, near_z), hn::Zero(d)));
-            };
-            const auto far_at = [&](std::size_t i) HWY_ATTR {
-                return hn::Min(
-                    hn::Min(
-                        hn::MulAdd(plane(3, i), inverse_x, far_x),
-                        hn::MulAdd(plane(4, i), inverse_y, far_y)),
-                    hn::Min(hn::MulAdd(plane(5, i), inverse_z, far_z), all(ray.limit)));
-            };
-            if constexpr (any) {
-                // With a branch, which the processor follows before it knows, it has the memory of
-                // the next node under way. Where the order counts, it would be guessed wrongly too
-                // often.
-                std::uint32_t met = 0;
-                for (std::size_t i = 0; i < tree_width; i += hn::Lanes(d))
-                    met |= bits_of(d, hn::Le(near_at(i), far_at(i))) << i;
-                for (; met != 0; met ^= std::bit_floor(met))
-                    stack.children[stack.size++] = TreeChild::waiting(
-                        node.children[static_cast<std::size_t>(std::bit_width(met) - 1)], 0);
-            } else {
-                stack.size +=
-                    put_met_children(node, octant, near_at, far_at, stack.children + stack.size);
-            }
-            if (!stack.take(ray.limit, next))
-                return false;
-        }
-        if (visit_leaf<any>(search, next, ray))
-            return true;
-        if (!stack.take(ray.limit, next))
-            return false;
-    }
 }
 
 /// The hit of a ray that was followed alone.

@@ -144,47 +144,63 @@ HWY_INLINE bool start_single(
     if (!tree.exact || size_exponent < 1 || size_exponent > 253 || t_exponent < least_t_exponent
         || t_exponent > 253)
         return false;
-    const float to_unit = power_of_two(254 - size_exponent);
-    const float from_unit = power_of_two(size_exponent);
     const float t_scale = power_of_two(t_exponent);
     per_t_scale = power_of_two(254 - t_exponent);
-    bool followed = true;
-    float origin_size = 0;
-    float direction_size = 0;
-    float inverse[3];
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const float direction = given.direction[axis] * to_unit + 0;
-        const float origin = tree.scale(given.origin[axis]);
-        followed = followed && direction * from_unit == given.direction[axis]
-            && tree.scale_back(origin) == given.origin[axis];
-        ray.origin[axis] = origin;
-        ray.direction[axis] = direction;
-        inverse[axis] = 1 / std::copysign(std::max(std::abs(direction), 0x1p-60F), direction);
-        origin_size = std::max(origin_size, std::abs(origin));
-        direction_size += std::abs(direction);
-    }
+    const float origin_size = tree.scale(std::max(
+        std::abs(given.origin[0]), std::max(std::abs(given.origin[1]), std::abs(given.origin[2]))));
     ray.t_min = given.t_min * t_scale + 0;
     ray.limit = given.t_max * t_scale;
-    followed = followed && origin_size <= farthest_origin && ray.t_min >= 0
-        && ray.t_min <= ray.limit && ray.t_min * per_t_scale == given.t_min
-        && (ray.limit * per_t_scale == given.t_max
-            || ray.limit == std::numeric_limits<float>::infinity());
-    if (!followed)
+    if (!(origin_size <= farthest_origin && ray.t_min >= 0 && ray.t_min <= ray.limit
+          && ray.t_min * per_t_scale == given.t_min
+          && (ray.limit * per_t_scale == given.t_max
+              || ray.limit == std::numeric_limits<float>::infinity())))
         return false;
-    ray.direction_size = direction_size * (1 + 0x1p-20F);
+
+    // Registers hold three numbers, and one more that is something, but no matter what: rows are
+    // stored in the order in which they stand, and what follows them after them.
+    constexpr std::size_t axes = 3;
+    const hn::CappedTag<float, 4> d;
+    const auto all = [&](float number) HWY_ATTR { return hn::Set(d, number); };
+    const auto slack = all(rounding_slack(origin_size));
+    std::uint32_t exact = 0;
+    std::uint32_t backward = 0;
+    for (std::size_t i = 0; i < axes; i += hn::Lanes(d)) {
+        const auto given_origin = hn::LoadU(d, given.origin.data() + i);
+        const auto given_direction = hn::LoadU(d, given.direction.data() + i);
+        const auto origin =
+            hn::Mul(hn::Mul(given_origin, all(tree.scale.first)), all(tree.scale.second));
+        // -0 becomes 0.
+        const auto direction =
+            hn::Add(hn::Mul(given_direction, all(power_of_two(254 - size_exponent))), hn::Zero(d));
+        const auto same_origin = hn::Eq(
+            hn::Mul(hn::Mul(origin, all(tree.scale_back.first)), all(tree.scale_back.second)),
+            given_origin);
+        const auto same_direction =
+            hn::Eq(hn::Mul(direction, all(power_of_two(size_exponent))), given_direction);
+        exact |= bits_of(d, hn::And(same_origin, same_direction)) << i;
+        const auto inverse =
+            hn::Div(all(1), hn::CopySign(hn::Max(hn::Abs(direction), all(0x1p-60F)), direction));
+        backward |= bits_of(d, hn::Lt(inverse, hn::Zero(d))) << i;
+        const auto outward = hn::CopySign(slack, inverse);
+        hn::StoreU(inverse, d, ray.inverse + i);
+        hn::StoreU(hn::Neg(hn::Mul(hn::Add(origin, outward), inverse)), d, ray.near_offset + i);
+        hn::StoreU(hn::Neg(hn::Mul(hn::Sub(origin, outward), inverse)), d, ray.far_offset + i);
+        hn::StoreU(origin, d, ray.origin + i);
+        hn::StoreU(direction, d, ray.direction + i);
+    }
+    ray.limit = given.t_max * t_scale;
+    ray.t_min = given.t_min * t_scale + 0;
+    constexpr std::uint32_t all_axes = (1U << axes) - 1;
+    if ((exact & all_axes) != all_axes)
+        return false;
+    octant = backward & all_axes;
+    ray.direction_size =
+        (std::abs(ray.direction[0]) + std::abs(ray.direction[1]) + std::abs(ray.direction[2]))
+        * (1 + 0x1p-20F);
     ray.near = std::numeric_limits<float>::infinity();
     ray.place = no_place;
     ray.lane = 0;
     ray.given = &given;
-    octant = 0;
-    const float slack = rounding_slack(origin_size);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const float outward = std::copysign(slack, inverse[axis]);
-        ray.inverse[axis] = inverse[axis];
-        ray.near_offset[axis] = -(ray.origin[axis] + outward) * inverse[axis];
-        ray.far_offset[axis] = -(ray.origin[axis] - outward) * inverse[axis];
-        octant |= std::size_t{std::signbit(inverse[axis])} << axis;
-    }
     return true;
 }
 

@@ -91,18 +91,19 @@ std::vector<BoxReference> float_references(std::size_t count, const BoxOf& box_o
     return references;
 }
 
-/// Makes the tree of the references, whose boxes are scaled already; numbers_of(element) is an
-/// array of what stands of it, scaled, in a leaf's rows, but for the last. Returns how many leaves
-/// there are.
+/// Makes the tree of the references, whose boxes are scaled already; contents as in
+/// build_box_tree(); numbers_of(element) is an array of what stands of it, scaled, in a leaf's rows,
+/// but for the last. Returns how many leaves there are.
 template <typename Tree, typename NumbersOf>
 std::size_t grow_float_tree(
     Tree& tree,
     std::vector<BoxReference> references,
     IndexQuality quality,
     const CancelFlag* cancel,
+    std::span<const float> contents,
     const NumbersOf& numbers_of) {
     const TreeEffort effort = quality == IndexQuality::high ? TreeEffort::high : TreeEffort::usual;
-    BoxTree boxes = build_box_tree(std::move(references), most_in_leaf, cancel, effort);
+    BoxTree boxes = build_box_tree(std::move(references), most_in_leaf, cancel, effort, contents);
     // Whole registers are loaded of the last rows.
     const std::size_t numbers = Tree::leaf_rows * boxes.references.size() + 2 * most_in_leaf;
     tree.leaves.reserve(numbers);

@@ -36,14 +36,13 @@ HWY_NOINLINE void doubt_lanes(
     std::size_t j,
     GroupMask lanes,
     RayGroup& group) {
-    const std::uint32_t element = element_at(
-        search.tree, static_cast<std::uint32_t>(leaf.first()), place_in_leaf(leaf_size(leaf), j));
     for (; lanes != 0; lanes &= lanes - 1)
         doubt(
             search.space.doubtful,
             group,
             static_cast<std::size_t>(std::countr_zero(lanes)),
-            element);
+            static_cast<std::uint32_t>(leaf.first()),
+            place_in_leaf(leaf_size(leaf), j));
 }
 
 /// What the rays of a beam do at a leaf.
@@ -125,14 +124,15 @@ HWY_INLINE bool take_meetings(
                     ray.place = place;
                     continue;
                 }
+                if (near[j] > ray.limit)
+                    continue; // behind what was met in the same leaf
             }
         }
-        const std::uint32_t element = element_at(search.tree, first, place);
         if constexpr (any) {
-            if (surely_meets(search.tree, *ray.given, element))
+            if (surely_meets(search.tree, *ray.given, first, place))
                 return true;
         } else {
-            doubt(search.space.doubtful, *ray.group, ray.lane, element);
+            doubt(search.space.doubtful, *ray.group, ray.lane, first, place);
         }
     }
     return false;
@@ -240,12 +240,9 @@ HWY_INLINE RayStream& start_stream(
         0};
     stream.patience = 0;
     if (any) {
-        // Which order is the best depends on the scene; this one was, on the average.
-        stream.order = number_order;
-        if (run_alike(stream)) {
-            stream.order = any_order;
+        stream.order = any_order;
+        if (run_alike(stream))
             bound_rays(octant, stream);
-        }
     }
     return stream;
 }

@@ -48,7 +48,8 @@ constexpr std::uint32_t no_doubtful = ~std::uint32_t{0};
 
 /// An element that a ray may meet, of which single precision cannot tell.
 struct Doubtful {
-    std::uint32_t element = 0;
+    std::uint32_t leaf = 0;             ///< TreeChild::first() of its leaf
+    std::uint32_t place = 0;            ///< in the leaf: see place_in_leaf()
     std::uint32_t before = no_doubtful; ///< the number of the same ray's one before
 };
 
@@ -78,14 +79,18 @@ HWY_NOINLINE inline Workspace& workspace_of_this_thread(const FloatTree& tree) {
     return space;
 }
 
-/// Notes that the lane's ray may meet the element.
-HWY_INLINE void
-doubt(std::vector<Doubtful>& all, RayGroup& group, std::size_t lane, std::uint32_t element) {
+/// Notes that the lane's ray may meet the element at this place of this leaf.
+HWY_INLINE void doubt(
+    std::vector<Doubtful>& all,
+    RayGroup& group,
+    std::size_t lane,
+    std::uint32_t leaf,
+    std::uint32_t place) {
     const GroupMask bit = GroupMask{1} << lane;
     const std::uint32_t before = (group.in_doubt & bit) != 0 ? group.doubtful[lane] : no_doubtful;
     group.in_doubt |= bit;
     group.doubtful[lane] = static_cast<std::uint32_t>(all.size());
-    all.push_back({element, before});
+    all.push_back({leaf, place, before});
 }
 
 /// What is searched through, see FloatTree, and what for.
@@ -120,9 +125,22 @@ HWY_INLINE std::uint32_t element_at(const Tree& tree, std::uint32_t leaf, std::u
         numbers_at(tree, leaf, place)[(Tree::leaf_rows - 1) * size]);
 }
 
+/// The numbers of an element as the caller gave them, of a tree that is exact, as it is where rays
+/// are followed. They are taken from the leaf, which is at hand.
 template <typename Tree>
-HWY_NOINLINE bool surely_meets(const Tree& tree, const IndexRay& ray, std::uint32_t element) {
-    return decider_of(tree, ray).meets(element);
+HWY_INLINE auto given_numbers(const Tree& tree, std::uint32_t leaf, std::uint32_t place) {
+    const float* const numbers = numbers_at(tree, leaf, place);
+    const std::size_t size = place >> 8U;
+    std::array<float, Tree::leaf_rows - 1> given;
+    for (std::size_t row = 0; row < given.size(); ++row)
+        given[row] = tree.scale_back(numbers[row * size]);
+    return given;
+}
+
+template <typename Tree>
+HWY_NOINLINE bool
+surely_meets(const Tree& tree, const IndexRay& ray, std::uint32_t leaf, std::uint32_t place) {
+    return decider_of(tree, ray).meets(given_numbers(tree, leaf, place));
 }
 
 } // namespace vera::detail::HWY_NAMESPACE

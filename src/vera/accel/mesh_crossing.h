@@ -78,6 +78,16 @@ inline std::optional<double> end_in_bounds(const Ray& ray, Vec3 a, Vec3 b, Vec3 
 /// or, since that is badly known of rays that all but lie in it, where they leave the bounds.
 inline std::optional<MeshCrossing>
 mesh_crossing(const PreparedRay& prepared, Vec3 a, Vec3 b, Vec3 c) {
+    const Ray& ray = prepared.ray;
+    const MeshCrossing crossing = plane_crossing(ray.origin, ray.direction, a, b, c);
+    const double size =
+        max_component(abs(b - a)) * max_component(abs(c - a)) * max_component(abs(ray.direction));
+    const double speed = std::abs(dot(cross(b - a, c - a), ray.direction));
+    constexpr double well_known = 0x1p-20;
+    const bool known = speed > well_known * size;
+    // Most of what is asked about is the face that a ray starts beside: this settles it.
+    if (known && !prepared.covers(crossing.t))
+        return std::nullopt;
     const ShearedPoint p = sheared(prepared, a);
     const ShearedPoint q = sheared(prepared, b);
     const ShearedPoint r = sheared(prepared, c);
@@ -89,30 +99,35 @@ mesh_crossing(const PreparedRay& prepared, Vec3 a, Vec3 b, Vec3 c) {
     const double area = u + v + w;
     if (area == 0)
         return std::nullopt;
-    const Ray& ray = prepared.ray;
     const std::optional<double> end = end_in_bounds(ray, a, b, c);
     if (!end)
         return std::nullopt;
-    MeshCrossing crossing = plane_crossing(ray.origin, ray.direction, a, b, c);
-    const double size =
-        max_component(abs(b - a)) * max_component(abs(c - a)) * max_component(abs(ray.direction));
-    const double speed = std::abs(dot(cross(b - a, c - a), ray.direction));
-    constexpr double well_known = 0x1p-20;
-    if (!(speed > well_known * size))
-        crossing = {*end, v / area, w / area};
-    if (!prepared.covers(crossing.t))
+    if (known)
+        return crossing;
+    if (!prepared.covers(*end))
         return std::nullopt;
-    return crossing;
+    return MeshCrossing{*end, v / area, w / area};
+}
+
+/// The coordinates of a triangle's corners, one corner after the other.
+using CornerNumbers = std::array<float, 9>;
+
+inline CornerNumbers corner_numbers(const MeshSpans& mesh, std::uint32_t triangle) {
+    const auto& corners = mesh.triangles[triangle];
+    CornerNumbers numbers;
+    for (std::size_t corner = 0; corner < 3; ++corner)
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            numbers[3 * corner + axis] = mesh.vertices[corners[corner]][axis];
+    return numbers;
 }
 
 inline std::optional<MeshCrossing>
-crossing_with(const MeshSpans& mesh, const PreparedRay& prepared, std::uint32_t triangle) {
-    const auto& corners = mesh.triangles[triangle];
+crossing_with(const PreparedRay& prepared, const CornerNumbers& numbers) {
     return mesh_crossing(
         prepared,
-        in_double(mesh.vertices[corners[0]]),
-        in_double(mesh.vertices[corners[1]]),
-        in_double(mesh.vertices[corners[2]]));
+        in_double({numbers[0], numbers[1], numbers[2]}),
+        in_double({numbers[3], numbers[4], numbers[5]}),
+        in_double({numbers[6], numbers[7], numbers[8]}));
 }
 
 /// What is told of a crossing: without -0.
@@ -149,14 +164,20 @@ public:
         : mesh_(mesh)
         , ray_(prepared_mesh_ray(ray)) {}
 
-    bool meets(std::uint32_t triangle) const {
-        return crossing_with(mesh_, ray_, triangle).has_value();
+    /// Of a triangle with these corners.
+    bool meets(const CornerNumbers& corners) const {
+        return crossing_with(ray_, corners).has_value();
     }
 
-    void consider(std::uint32_t triangle) {
-        if (const auto crossing = crossing_with(mesh_, ray_, triangle))
+    bool meets(std::uint32_t triangle) const { return meets(corner_numbers(mesh_, triangle)); }
+
+    /// The triangle, whose corners the caller knows already.
+    void consider(std::uint32_t triangle, const CornerNumbers& corners) {
+        if (const auto crossing = crossing_with(ray_, corners))
             nearest_.add(*crossing, triangle);
     }
+
+    void consider(std::uint32_t triangle) { consider(triangle, corner_numbers(mesh_, triangle)); }
 
     /// Of the nearest crossing so far; infinity where there is none.
     double t() const { return nearest_.crossing.t; }
@@ -166,7 +187,7 @@ public:
     /// Calls add(hit, t) for each crossing with the triangle.
     template <typename Add>
     void for_each_hit(std::uint32_t triangle, const Add& add) const {
-        if (const auto crossing = crossing_with(mesh_, ray_, triangle))
+        if (const auto crossing = crossing_with(ray_, corner_numbers(mesh_, triangle)))
             add(mesh_hit(*crossing, triangle), crossing->t);
     }
 

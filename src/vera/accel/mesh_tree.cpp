@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdint>
 #include <stdexcept>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -93,6 +94,29 @@ FloatBox box_of(const MeshSpans& mesh, const Corners& corners, const FloatScale&
     return box;
 }
 
+/// The areas of the triangles: half of the surface of their two sides. Those that cannot be met may
+/// be no numbers.
+std::vector<float> areas(const MeshSpans& mesh, const FloatScale& scale) {
+    std::vector<float> areas(mesh.triangles.size());
+    parallel_ranges(areas.size(), float_tree_grain, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            const auto& [a, b, c] = mesh.triangles[i];
+            float e[3];
+            float f[3];
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const float corner = scale(mesh.vertices[a][axis]);
+                e[axis] = scale(mesh.vertices[b][axis]) - corner;
+                f[axis] = scale(mesh.vertices[c][axis]) - corner;
+            }
+            const float x = e[1] * f[2] - e[2] * f[1];
+            const float y = e[2] * f[0] - e[0] * f[2];
+            const float z = e[0] * f[1] - e[1] * f[0];
+            areas[i] = 0.5F * std::sqrt(x * x + y * y + z * z);
+        }
+    });
+    return areas;
+}
+
 } // namespace
 
 MeshTree build_mesh_tree(MeshSpans mesh, MeshIndexQuality quality, const CancelFlag* cancel) {
@@ -113,13 +137,16 @@ MeshTree build_mesh_tree(MeshSpans mesh, MeshIndexQuality quality, const CancelF
             return box_of(mesh, mesh.triangles[i], tree.scale);
         });
     const std::size_t triangles = references.size();
-    const std::size_t leaves =
-        grow_float_tree(tree, std::move(references), quality, cancel, [&](std::uint32_t triangle) {
-            std::array<float, 9> numbers;
-            for (std::size_t corner = 0; corner < 3; ++corner)
-                for (std::size_t axis = 0; axis < 3; ++axis)
-                    numbers[3 * corner + axis] =
-                        tree.scale(mesh.vertices[mesh.triangles[triangle][corner]][axis]);
+    const std::size_t leaves = grow_float_tree(
+        tree,
+        std::move(references),
+        quality,
+        cancel,
+        areas(mesh, tree.scale),
+        [&](std::uint32_t triangle) {
+            CornerNumbers numbers = corner_numbers(mesh, triangle);
+            for (float& number : numbers)
+                number = tree.scale(number);
             return numbers;
         });
     tree.statistics = {

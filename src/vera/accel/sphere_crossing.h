@@ -92,15 +92,21 @@ public:
         : spheres_(spheres)
         , ray_(ray) {}
 
-    bool meets(std::uint32_t sphere) const { return first_t(sphere).has_value(); }
+    /// Of a sphere of this center and radius.
+    bool meets(const std::array<float, 4>& numbers) const { return first_t(numbers).has_value(); }
 
-    void consider(std::uint32_t sphere) {
-        const std::optional<double> t = first_t(sphere);
+    bool meets(std::uint32_t sphere) const { return meets(spheres_[sphere]); }
+
+    /// The sphere, whose center and radius the caller knows already.
+    void consider(std::uint32_t sphere, const std::array<float, 4>& numbers) {
+        const std::optional<double> t = first_t(numbers);
         if (t && (*t < t_ || (*t == t_ && sphere < sphere_))) {
             t_ = *t;
             sphere_ = sphere;
         }
     }
+
+    void consider(std::uint32_t sphere) { consider(sphere, spheres_[sphere]); }
 
     /// Of the nearest crossing so far; infinity where there is none.
     double t() const { return t_; }
@@ -120,8 +126,8 @@ public:
     }
 
 private:
-    std::optional<double> first_t(std::uint32_t sphere) const {
-        const auto crossings = sphere_crossings(ray_, spheres_[sphere]);
+    std::optional<double> first_t(const std::array<float, 4>& numbers) const {
+        const auto crossings = sphere_crossings(ray_, numbers);
         return crossings ? first_covered(ray_, *crossings) : std::nullopt;
     }
 

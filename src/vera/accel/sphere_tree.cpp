@@ -60,8 +60,8 @@ SphereTree build_sphere_tree(SphereSpan spheres, IndexQuality quality, const Can
     std::vector<BoxReference> references = float_references(
         spheres.size(), [&](std::size_t i) { return box_of(spheres[i], tree.scale); });
     const std::size_t met = references.size();
-    const std::size_t leaves =
-        grow_float_tree(tree, std::move(references), quality, cancel, [&](std::uint32_t sphere) {
+    const std::size_t leaves = grow_float_tree(
+        tree, std::move(references), quality, cancel, {}, [&](std::uint32_t sphere) {
             std::array<float, 4> numbers = spheres[sphere];
             for (float& number : numbers)
                 number = tree.scale(number);

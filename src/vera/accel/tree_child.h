@@ -14,8 +14,8 @@ constexpr std::size_t block_width = 4;
 /// Directions of rays, by the axes along which they run backward: bit a for axis a.
 constexpr std::size_t octant_count = 8;
 
-/// The order in which rays that only ask whether they meet anything come to a node's children, the
-/// fullest first; the numbers below are those of the octants, in which others do.
+/// The order in which rays that only ask whether they meet anything come to a node's children: that
+/// of their numbers. The numbers below are those of the octants, in which others do.
 constexpr std::size_t any_order = octant_count;
 
 /// A child of a node of a tree of boxes, see WideNode, in 64 bits. The lower part says what it is:

@@ -62,12 +62,20 @@ constexpr auto plane_places = [] {
     return places;
 }();
 
+/// Children that were put onto a stack.
+struct PutChildren {
+    std::uint32_t count = 0;
+    /// The one on top, where there is any. It is told beside, since what goes on with it is not to
+    /// wait for the stack's memory; it does not say where it is entered.
+    TreeChild first;
+};
+
 /// Puts the children of the node onto a stack for which near, which is not negative, is not behind
-/// far, those to come to first in this order, or where that is cheaper, the nearest ones, on top;
-/// returns how many. near_at(i) and far_at(i) are those of a register full of children from number
-/// i on. Whole registers are stored.
+/// far, those to come to first in this order, or where that is cheaper, the nearest ones, on top.
+/// near_at(i) and far_at(i) are those of a register full of children from number i on. Whole
+/// registers are stored.
 template <typename NearAt, typename FarAt>
-HWY_INLINE std::uint32_t put_met_children(
+HWY_INLINE PutChildren put_met_children(
     const WideNode& node,
     [[maybe_unused]] std::size_t order,
     const NearAt& near_at,
@@ -87,7 +95,11 @@ HWY_INLINE std::uint32_t put_met_children(
     const __m512i waiting = _mm512_ternarylogic_epi64(
         _mm512_set1_epi64(static_cast<long long>(TreeChild::lower_part)), in_order, upper, 0xca);
     _mm512_storeu_si512(stack, _mm512_maskz_compress_epi64(met, waiting));
-    return static_cast<std::uint32_t>(std::popcount(std::uint32_t{met}));
+    alignas(64) TreeChild all[tree_width];
+    _mm512_store_si512(all, in_order);
+    const std::uint32_t bits = met;
+    const std::size_t last = static_cast<std::size_t>(std::bit_width(bits) - 1) % tree_width;
+    return {static_cast<std::uint32_t>(std::popcount(bits)), all[last]};
 #else
     const Children d;
     std::uint32_t met = 0;
@@ -106,7 +118,7 @@ HWY_INLINE std::uint32_t put_met_children(
             stack[place] = stack[place - 1];
         stack[place] = child;
     }
-    return size;
+    return {size, size > 0 ? stack[size - 1] : TreeChild{}};
 #endif
 }
 

@@ -28,10 +28,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 constexpr std::size_t stream_size = 64;
 using StreamMask = std::uint64_t;
 
-/// The order of a node's children by their numbers, as the builder left them: neighbours follow
-/// each other. See any_order for the others.
-constexpr std::size_t number_order = any_order + 1;
-
 /// What waits for rays of a stream.
 struct StreamStack {
     TreeChild* children = nullptr; ///< the next one is on top
@@ -150,7 +146,7 @@ HWY_INLINE void put_waiting(
     const WideNode& node, const ChildRays& met_rays, std::size_t order, StreamStack& stack) {
 #if VERA_AVX512
     const __m512i children = _mm512_load_si512(node.children.data());
-    const __m512i numbers = order == number_order
+    const __m512i numbers = order == any_order
         ? _mm512_set_epi64(0, 1, 2, 3, 4, 5, 6, 7)
         : _mm512_srl_epi64(
             children, _mm_cvtsi32_si128(static_cast<int>(TreeChild::order_shift_of(order))));
@@ -163,8 +159,7 @@ HWY_INLINE void put_waiting(
     stack.size += static_cast<std::uint32_t>(std::popcount(std::uint32_t{met}));
 #else
     for (std::size_t place = 0; place < tree_width; ++place) {
-        const std::size_t child =
-            order == number_order ? tree_width - 1 - place : node.children[place].in_order(order);
+        const std::size_t child = waiting_at(node, place, order);
         if (met_rays[child] != 0)
             stack.push(node.children[child], met_rays[child]);
     }

@@ -20,6 +20,11 @@ struct alignas(64) WideNode {
     std::array<TreeChild, tree_width> children;
 };
 
+/// The number of the child that waits at this place in this order, the longest at place 0.
+inline std::size_t waiting_at(const WideNode& node, std::size_t place, std::size_t order) {
+    return order == any_order ? tree_width - 1 - place : node.children[place].in_order(order);
+}
+
 /// Values of the elements of a block: row 0 holds their numbers, row 1 + i value i of their
 /// records. What stands behind the last element is a copy of it.
 using BlockRow = std::array<float, block_width>;

@@ -118,7 +118,7 @@ private:
         query_.recorder->add(std::move(step));
         const std::size_t order = order_of(query_, at.frame);
         for (std::size_t place = 0; place < tree_width; ++place) {
-            const std::size_t child = node.children[place].in_order(order);
+            const std::size_t child = waiting_at(node, place, order);
             if (meets_child(at.frame, node, child))
                 stack.push_back(
                     {node.children[child], number, waiting.level + 1, child_box(node, child)});
