@@ -77,8 +77,8 @@ TEST(ScreenPoint, PointsAreThoseOfLongDivision) {
     std::size_t reduced = 0;
     for (int i = 0; i < 50'000; ++i) {
         const bool is_few = i % 2 == 0;
-        const ScreenPoint a = is_few ? few(random) : anywhere();
-        const ScreenPoint b = is_few ? few(random) : anywhere();
+        const ScreenPoint a = is_few ? few_point(random) : anywhere();
+        const ScreenPoint b = is_few ? few_point(random) : anywhere();
         // Long denominators, short ones, and places next to both ends.
         const auto denominator =
             static_cast<std::int64_t>(1 + (random() >> (18U + random() % 46U)));
