@@ -171,8 +171,12 @@ private:
 /// No more than 256 colours can need, with long comments.
 std::vector<std::byte> palette_bytes(const std::string& name) {
     constexpr std::size_t most = std::size_t{1} << 20U;
-    std::vector<std::byte> bytes = file_bytes(name, most);
-    if (bytes.size() > most)
+    std::error_code unknown;
+    const std::uintmax_t size = fs::file_size(name, unknown); // of a pipe it is not known
+    std::vector<std::byte> bytes;
+    if (unknown || size <= most)
+        bytes = file_bytes(name, most);
+    if (!unknown && size > most)
         throw InputError({Diagnostic{
             .place = {.file = name},
             .problem = "this is no palette: it has more than a million bytes",
@@ -358,7 +362,8 @@ std::vector<fs::path> series_outputs(const Request& request) {
     return outputs;
 }
 
-/// Each picture is read once. They appear together: none does where one cannot be read or written.
+/// Each picture is read once. None gets its name where one of them cannot be read or written (into
+/// a pipe each goes as it is read).
 void write_series(const Request& request, const Format& format, const Console& console) {
     const std::vector<fs::path> outputs = series_outputs(request);
     std::vector<PictureSource> sources;
@@ -366,15 +371,18 @@ void write_series(const Request& request, const Format& format, const Console& c
     if (request.palette_for_all) {
         sources = sources_of(request);
         palette = chosen_palette(request, pointers(sources));
+    } else if (!request.palette.empty()) {
+        palette = given_palette(request.palette); // once: it may come from a pipe
     }
     std::deque<OutputFile> files;
     for (std::size_t i = 0; i < outputs.size(); ++i) {
         OutputFile& file = files.emplace_back(outputs[i]);
-        if (palette) {
-            write_one(request, format, sources[i], file, &*palette, console);
+        const Palette* const given = palette ? &*palette : nullptr;
+        if (request.palette_for_all) {
+            write_one(request, format, sources[i], file, given, console);
         } else {
             PictureSource source(request.inputs()[i], request.crop, request.exposure);
-            write_one(request, format, source, file, nullptr, console);
+            write_one(request, format, source, file, given, console);
         }
         file.finish();
     }

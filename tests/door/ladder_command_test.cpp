@@ -189,5 +189,27 @@ TEST(LadderCommand, LeavesNoFolderWhereItFails) {
     EXPECT_EQ(folder.file_count(), 1U);
 }
 
+/// The scene hash that a picture of the scene tells.
+std::string hash_of(const ScratchFolder& folder, const std::string& scene) {
+    folder.write("a.vera", scene);
+    EXPECT_EQ(run_vera(folder, std::string("render a.vera -o a.png") + small_picture).exit_code, 0);
+    return text_of(folder.read("a.png"), "Scene hash").substr(0, 16);
+}
+
+TEST(RenderCommand, TellsVersionsOfASceneApartByAHash) {
+    const ScratchFolder folder;
+    const std::string scene = full_scene;
+    const std::string hash = hash_of(folder, scene);
+    EXPECT_EQ(hash, hash_of(folder, scene));
+    std::set<std::string> hashes = {hash};
+    // Bytes at every place of a word of eight, and lengths that differ by nothing else.
+    for (std::size_t i = 1; i <= 9; ++i)
+        hashes.insert(hash_of(folder, scene + std::string(i, ' ')));
+    for (std::size_t i = 0; i < 9; ++i)
+        hashes.insert(
+            hash_of(folder, scene + std::string(i, ' ') + '\n' + std::string(9 - i, ' ')));
+    EXPECT_EQ(hashes.size(), 19U);
+}
+
 } // namespace
 } // namespace vera

@@ -95,5 +95,21 @@ TEST(PixelStrata, KeepTheListsOfPixelsApart) {
     EXPECT_EQ(strata.color(second), (Color{0, 1, 0}));
 }
 
+TEST(PixelStrata, TakeTheRoomOfListsThatAreNeededNoMore) {
+    PixelStrata strata;
+    for (int i = 0; i < 1000; ++i) {
+        const std::size_t kept = strata.begin(face(1));
+        const std::size_t list = strata.begin(sky());
+        add(strata, list, face(1), {0, 1, 0});
+        add(strata, kept, face(1), {1, 0, 0});
+        add(strata, list, face(2), {0, 1, 0});
+        EXPECT_EQ(strata.color(list), (Color{0, 1, 0})) << "nothing is left of others";
+        strata.end(list);
+        EXPECT_EQ(strata.color(kept), (Color{1, 0, 0}));
+        strata.end(kept);
+    }
+    EXPECT_EQ(strata.room(), 4U);
+}
+
 } // namespace
 } // namespace vera

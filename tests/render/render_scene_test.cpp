@@ -109,7 +109,12 @@ TEST(RenderScene, GivesTheSameBytesAndCountsForAnyNumberOfThreads) {
                 first = result;
             EXPECT_EQ(bytes(result), bytes(*first)) << threads << " threads";
             EXPECT_EQ(result.statistics.view_rays, first->statistics.view_rays);
+            EXPECT_EQ(result.statistics.extra_view_rays, first->statistics.extra_view_rays);
+            EXPECT_EQ(result.statistics.probe_rays, first->statistics.probe_rays);
+            EXPECT_EQ(result.statistics.refined_pixels, first->statistics.refined_pixels);
             EXPECT_EQ(result.statistics.shadow_rays, first->statistics.shadow_rays);
+            EXPECT_EQ(result.statistics.mirrored_rays, first->statistics.mirrored_rays);
+            EXPECT_EQ(result.statistics.refracted_rays, first->statistics.refracted_rays);
             EXPECT_EQ(result.statistics.queries.tests, first->statistics.queries.tests);
         }
     }

@@ -160,6 +160,14 @@ HWY_INLINE bool start_single(
     // stored in the order in which they stand, and what follows them after them.
     constexpr std::size_t axes = 3;
     const hn::CappedTag<float, 4> d;
+    static_assert(offsetof(IndexRay, t_min) == offsetof(IndexRay, origin) + axes * sizeof(float));
+    static_assert(
+        offsetof(IndexRay, t_max) == offsetof(IndexRay, direction) + axes * sizeof(float));
+    static_assert(offsetof(SingleRay, near_offset) == 3 * sizeof(float));
+    static_assert(offsetof(SingleRay, far_offset) == 6 * sizeof(float));
+    static_assert(offsetof(SingleRay, limit) == 9 * sizeof(float));
+    static_assert(offsetof(SingleRay, origin) == 10 * sizeof(float));
+    static_assert(offsetof(SingleRay, t_min) == 16 * sizeof(float));
     const auto all = [&](float number) HWY_ATTR { return hn::Set(d, number); };
     const auto slack = all(rounding_slack(origin_size));
     std::uint32_t exact = 0;

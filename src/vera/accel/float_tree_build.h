@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -92,8 +93,8 @@ std::vector<BoxReference> float_references(std::size_t count, const BoxOf& box_o
 }
 
 /// Makes the tree of the references, whose boxes are scaled already; contents as in
-/// build_box_tree(); numbers_of(element) is an array of what stands of it, scaled, in a leaf's rows,
-/// but for the last. Returns how many leaves there are.
+/// build_box_tree(); numbers_of(element) is an array of what stands of it, scaled, in a leaf's
+/// rows, but for the last. Returns how many leaves there are.
 template <typename Tree, typename NumbersOf>
 std::size_t grow_float_tree(
     Tree& tree,

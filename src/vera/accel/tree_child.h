@@ -21,7 +21,7 @@ constexpr std::size_t any_order = octant_count;
 /// A child of a node of a tree of boxes, see WideNode, in 64 bits. The lower part says what it is:
 /// another node, or a block of up to block_width elements of one kind; and where. The upper part
 /// belongs to its place in the node rather than to the child: which of the node's children is the
-/// one to be kept longest waiting there, in each order. While a child waits for one ray, or for a
+/// one to be kept longest waiting there, for each octant. While a child waits for one ray, or for a
 /// beam, its upper part says where that enters its box.
 struct TreeChild {
     std::uint64_t bits = 0;
@@ -58,7 +58,8 @@ struct TreeChild {
 
     constexpr std::size_t count() const { return (bits >> count_shift & 3U) + 1; }
 
-    /// Says at this place of a node that in this order the child of that number waits here.
+    /// Says at this place of a node that in this order, which is not any_order, the child of that
+    /// number waits here.
     constexpr void set_order(std::size_t order, std::uint64_t number) {
         bits |= number << order_shift_of(order);
     }

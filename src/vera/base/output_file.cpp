@@ -2,6 +2,7 @@
 #include "vera/base/output_file.h"
 
 #include "vera/base/check.h"
+#include "vera/base/free_room.h"
 #include "vera/base/partial_file.h"
 
 #include <cerrno>
@@ -234,7 +235,7 @@ void OutputFile::write_at(std::uint64_t position, std::span<const std::byte> byt
 void OutputFile::finish() {
     VERA_CHECK(target_->descriptor() >= 0);
     flush();
-    target_->buffer = {};
+    free_room(target_->buffer); // many files may wait for each other
     if (!target_->partial)
         return;
     if (fsync(target_->descriptor()) != 0)

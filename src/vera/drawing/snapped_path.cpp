@@ -16,9 +16,6 @@ namespace vera::detail {
 
 namespace {
 
-/// How far curves may be off the arcs that they stand for, in units.
-constexpr double most_off = 0.5;
-
 /// What is left of a chain with these arcs; nothing when no length is.
 std::optional<SnappedPath> snapped(
     std::span<const DrawingPoint> points,

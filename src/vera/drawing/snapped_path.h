@@ -14,6 +14,9 @@
 
 namespace vera::detail {
 
+/// How far curves may be off the arcs that they stand for, in units.
+constexpr double most_off = 0.5;
+
 /// In units of a Lattice.
 struct SnappedPoint {
     std::int64_t x = 0;

@@ -95,8 +95,10 @@ void add_svg_areas(
     for (const std::string& one : parts)
         size += one.size();
     text.reserve(size);
-    for (const std::string& one : parts)
+    for (std::string& one : parts) {
         text += one;
+        std::string().swap(one);
+    }
 }
 
 } // namespace vera::detail

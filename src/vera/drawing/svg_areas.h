@@ -24,7 +24,7 @@ void add_svg_areas(
     std::size_t last,
     std::string& text);
 
-/// As write_svg(), into a file: never is the whole text in memory. The caller commits.
+/// As write_svg(), into a file, part by part; into a pipe all at the end. The caller commits.
 void write_svg_file(
     const Drawing& drawing,
     const DrawingSettings& settings,

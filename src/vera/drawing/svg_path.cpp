@@ -15,9 +15,6 @@ namespace {
 /// ellipses by as many times as much as they are longer than wide.
 constexpr double flattest_arc = 4;
 
-/// How far curves may be off the arcs that they stand for, in units.
-constexpr double most_off = 0.5;
-
 } // namespace
 
 void SvgPathWriter::write(const SnappedPath& path) {
@@ -126,7 +123,6 @@ void SvgPathWriter::write_point(SnappedPoint point) {
 }
 
 void SvgPathWriter::write(std::int64_t units, int digits) {
-    constexpr int most_digits = 12;
     std::array<char, 1 + longest_decimal(most_digits)> number;
     char* const begin = number.data() + 1;
     char* const end = write_decimal(begin, units, digits);

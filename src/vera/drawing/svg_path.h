@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "vera/base/check.h"
 #include "vera/drawing/snapped_path.h"
 
 #include <cstddef>
@@ -14,10 +15,15 @@ namespace vera::detail {
 /// in differences of rounded numbers: rounding does not add up.
 class SvgPathWriter {
 public:
-    /// Adds to the text, which must outlive it, numbers of units of 10^-digits.
+    static constexpr int most_digits = 12;
+
+    /// Adds to the text, which must outlive it, numbers of units of 10^-digits, most_digits at
+    /// most.
     SvgPathWriter(std::string& text, int digits)
         : digits_(digits)
-        , text_(text) {}
+        , text_(text) {
+        VERA_CHECK(digits <= most_digits);
+    }
 
     void write(const SnappedPath& path);
 

@@ -73,14 +73,15 @@ public:
         for (std::size_t i = 0; i < layers_.lines.size(); ++i)
             write_lines(layers_.lines[i], line_ids_[i]);
         text_ += "</svg>\n";
-        pass_on();
+        if (file_ != nullptr)
+            file_->write(text_);
     }
 
 private:
     /// What is written so far, into the file: the whole of a large drawing need not be there at a
-    /// time.
+    /// time. But what ends early must not have written a part of it into a pipe.
     void pass_on() {
-        if (file_ == nullptr)
+        if (file_ == nullptr || !file_->seekable())
             return;
         file_->write(text_);
         text_.clear();
@@ -227,15 +228,30 @@ private:
                 pass_on();
             });
         end_group();
-        // So few at a time that their text takes no room.
-        constexpr std::size_t block = 32768;
-        for (std::size_t first = 0; first < drawing_.areas.count(); first += block) {
+        const SharedAreas& areas = drawing_.areas;
+        for (std::size_t first = 0; first < areas.count();) {
             tell(layers_.fills.size() + first);
-            const std::size_t last = std::min(drawing_.areas.count(), first + block);
-            add_svg_areas(drawing_.areas, lattice_, first, last, text_);
+            const std::size_t last = end_of_block(areas, first);
+            add_svg_areas(areas, lattice_, first, last, text_);
             pass_on();
+            first = last;
         }
         text_ += "</g>\n";
+    }
+
+    /// So few areas, and corners, that their text takes no room; one area at least.
+    static std::size_t end_of_block(const SharedAreas& areas, std::size_t first) {
+        constexpr std::size_t most_areas = 32768;
+        constexpr std::size_t most_corners = std::size_t{1} << 18U;
+        const auto corners_to = [&](std::size_t end) -> std::size_t {
+            const std::size_t rings = end == 0 ? 0 : areas.area_ends[end - 1];
+            return rings == 0 ? 0 : areas.ring_ends[rings - 1];
+        };
+        const std::size_t most = corners_to(first) + most_corners;
+        std::size_t end = first + 1;
+        while (end < areas.count() && end - first < most_areas && corners_to(end + 1) <= most)
+            ++end;
+        return end;
     }
 
     struct FillData {
@@ -278,6 +294,7 @@ private:
     }
 
     void write_lines(const LineLayer& layer, const std::string& id) {
+        constexpr std::size_t most_text = std::size_t{1} << 20U;
         text_ += fmt::format(
             "<g id=\"{0}\" class=\"line {0}\" inkscape:groupmode=\"layer\" "
             "inkscape:label=\"{1}\">\n",
@@ -287,6 +304,8 @@ private:
         for (std::size_t i = 0; i < layer.lines.size(); ++i) {
             loop.turn(i);
             text_ += fmt::format("<path d=\"{}\"/>\n", path_data({&layer.lines[i], 1}));
+            if (text_.size() > most_text)
+                pass_on();
         }
         text_ += "</g>\n";
     }

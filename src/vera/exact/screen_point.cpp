@@ -16,9 +16,11 @@ struct Quotient {
     std::int64_t rest = 0;
 };
 
-/// That part of a length. Where the place is on the segment, or within 2^24 of its lengths.
+/// That part of a length; the place is on the segment.
 Quotient part_of(std::int64_t length, SegmentPlace place) {
-    // The estimate, of less than 2^47, is off by three roundings of 2^-53: by less than one.
+    // The estimate, no longer than the length, is off by three roundings of 2^-53: by less than
+    // one.
+    static_assert(screen_bits + 2 < 53);
     const double estimate = place.value() * static_cast<double>(length);
     auto whole = static_cast<std::int64_t>(estimate);
     // Of numbers that may be longer than 64 bits the difference is not, and so comes out right.

@@ -90,7 +90,7 @@ struct RationalPoint {
     friend constexpr bool operator==(const RationalPoint&, const RationalPoint&) = default;
 };
 
-/// The point at a place of the segment from a to b.
+/// The point at a place on the segment from a to b, not beside its ends.
 RationalPoint point_at(ScreenPoint a, ScreenPoint b, SegmentPlace place);
 
 /// Orders points by x and then by y.

@@ -24,10 +24,29 @@ Color Stratum::mean() const {
 }
 
 std::size_t PixelStrata::begin(const Seen& center) {
-    strata_.emplace_back();
-    strata_.back().seen = center;
-    strata_.back().next = none;
-    return strata_.size() - 1;
+    std::size_t stratum = free_;
+    if (stratum == none) {
+        stratum = strata_.size();
+        strata_.emplace_back();
+    } else {
+        free_ = strata_[stratum].next;
+        strata_[stratum] = {};
+    }
+    strata_[stratum].seen = center;
+    return stratum;
+}
+
+void PixelStrata::end(std::size_t list) {
+    std::size_t last = list;
+    while (strata_[last].next != none)
+        last = strata_[last].next;
+    strata_[last].next = free_;
+    free_ = list;
+}
+
+void PixelStrata::clear() {
+    strata_.clear();
+    free_ = none;
 }
 
 std::size_t PixelStrata::find_or_add(std::size_t list, const Seen& one) {

@@ -21,7 +21,7 @@ struct Stratum {
     Color first;   ///< one of the colours
     Color sum;     ///< of all colours' differences to it
     Color squares; ///< sum of the squares of these, channel by channel
-    std::size_t next = 0;
+    std::size_t next = std::numeric_limits<std::size_t>::max(); ///< PixelStrata::none
 
     void add(Color color);
     Color mean() const; ///< shaded must not be 0
@@ -36,6 +36,9 @@ public:
 
     /// A list for another pixel.
     std::size_t begin(const Seen& center);
+
+    /// The list is needed no more: others take its room.
+    void end(std::size_t list);
 
     /// The stratum in the list that shows the same surface, which is added where there is none.
     std::size_t find_or_add(std::size_t list, const Seen& one);
@@ -62,12 +65,16 @@ public:
 
     Stratum& operator[](std::size_t stratum) { return strata_[stratum]; }
 
-    void clear() { strata_.clear(); }
+    void clear();
+
+    /// How many surfaces there has been room for at a time.
+    std::size_t room() const { return strata_.size(); }
 
 private:
     double covered(std::size_t list) const;
 
     std::vector<Stratum> strata_;
+    std::size_t free_ = none; ///< a list
 };
 
 } // namespace vera

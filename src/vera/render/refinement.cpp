@@ -295,8 +295,10 @@ void TileRefiner::refine_pending() {
             pixel.is_queued = false;
             // From the beginning also where it has been refined less far: what is seen of a pixel
             // must not depend on when it was found out how far it is refined.
-            if (pixel.reached != pixel.wanted)
+            if (pixel.reached != pixel.wanted) {
                 pixel.shaded = 0;
+                end_strata(pixel);
+            }
             pixel.reached = pixel.wanted;
             const std::uint32_t wanted = shaded_wanted(pending_[next]);
             jobs_.push_back({pending_[next], pixel.shaded, wanted});
@@ -320,6 +322,8 @@ void TileRefiner::refine_pending() {
             develop_pixel(job.pixel);
             if (shaded_wanted(job.pixel) > pixel.shaded)
                 queue(job.pixel);
+            else
+                end_strata(pixel);
         }
         follow_thin_things();
     }
@@ -335,6 +339,12 @@ void TileRefiner::begin_strata(std::size_t number) {
     });
     pixel.covered = 0;
     pixel.strata = strata_.begin(center);
+}
+
+void TileRefiner::end_strata(Pixel& pixel) {
+    if (pixel.strata != PixelStrata::none)
+        strata_.end(pixel.strata);
+    pixel.strata = PixelStrata::none;
 }
 
 void TileRefiner::see_centers_around(std::span<const Job> jobs) {

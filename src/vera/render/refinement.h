@@ -125,6 +125,7 @@ private:
     void probe();
     void trace_samples();
     void begin_strata(std::size_t number);
+    void end_strata(Pixel& pixel);
     void shade_samples();
     void cover_pixels();
     void send_sample(std::size_t pixel, std::uint32_t sample);

@@ -125,10 +125,18 @@ private:
         if (facets_.triangles.size() + 1 >= too_many)
             refuse(scene_);
         if (facets_.triangles.size() == facets_.triangles.capacity())
-            require_room(2 * facets_.triangles.size());
+            make_room();
         if (turned != visit_->mirrored)
             std::swap(corners[1], corners[2]);
         facets_.triangles.push_back({corners, piece, primitive_, material_});
+    }
+
+    /// By a quarter: after a large mesh, which has room of its own, a floor must not double it.
+    void make_room() {
+        const std::size_t count = facets_.triangles.size();
+        const std::size_t room = count + std::max(count / 4, std::size_t{1024});
+        require_room(room);
+        facets_.triangles.reserve(room);
     }
 
     /// For so many facets, for which the list makes room next, with what is made of each at once.

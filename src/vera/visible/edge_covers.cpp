@@ -301,7 +301,9 @@ bool EdgeSweep::gather(std::uint32_t edge) {
     }
     // Shadows may be seen on surfaces that they are no matter of, and so need all of these.
     const bool are_there_shadows = !raster_.shadow_cells.triangles.empty();
-    classify_along(surfaces, all, are_there_shadows ? 0 : raster_.hidden_eighths[edge]);
+    // What is left out where the edge is hidden must be found to be hidden, as it is below.
+    const bool leaves_out = !are_there_shadows && shadowed != several_sources;
+    classify_along(surfaces, all, leaves_out ? raster_.hidden_eighths[edge] : 0);
     if (shadowed != several_sources) {
         find_hidden_parts();
         if (is_hidden(beginning, ending))
