@@ -116,11 +116,16 @@ def exponents_table(results):
 
 def peers_table(results):
     rows = []
-    for row in results.peers["results"] if results.peers else []:
+    pictures = results.peers["results"] if results.peers else []
+    for row in pictures:
         rows.append([
             f"{row['scene']}, {row['side']}{', antialiased' if row['antialias'] else ''}",
             cell(row["vera"]["trace"]), cell(row["povray"]["trace"]), cell(row["trace_ratio"], 2),
             cell(row["vera"]["cpu"]), cell(row["povray"]["cpu"]), cell(row["cpu_ratio"], 2)])
+    for side, antialias in dict.fromkeys((row["side"], row["antialias"]) for row in pictures):
+        alike = [row for row in pictures if (row["side"], row["antialias"]) == (side, antialias)]
+        means = [cell(mean([row[name] for row in alike]), 2) for name in ("trace_ratio", "cpu_ratio")]
+        rows.append([f"geometric mean, {side}{', antialiased' if antialias else ''}", "", "", means[0], "", "", means[1]])
     head = ["picture", "trace seconds", "POV-Ray", "ratio", "CPU seconds", "POV-Ray", "ratio"]
     return table(head, rows) if rows else None
 
