@@ -36,7 +36,8 @@ same_pictures_on_arm() {
 }
 
 fuzz_for_long() {
-    VERA_FUZZ_SECONDS=${VERA_LONG_FUZZ_SECONDS:-600} run_tests asan -L fuzz
+    VERA_FUZZ_SECONDS=${VERA_LONG_FUZZ_SECONDS:-600} VERA_FUZZ_RUNS=-1 VERA_FUZZ_SEED=0 \
+        run_tests asan -L fuzz
 }
 
 # Tests of files of gigabytes are skipped unless this variable is set.

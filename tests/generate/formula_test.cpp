@@ -48,6 +48,20 @@ TEST(Formula, KnowsItsFunctions) {
 }
 
 // Closed surfaces are closed to the bit by this.
+TEST(Formula, HasNoAngleWhereACoordinateIsNotANumber) {
+    EXPECT_EQ(value("atan2(0, 0)"), 0);
+    EXPECT_TRUE(std::isnan(Formula("atan2(1, sqrt(u))").at(-1, 0).value));
+    EXPECT_TRUE(std::isnan(Formula("atan2(sqrt(u), 0)").at(-1, 0).value));
+}
+
+TEST(Formula, HasTheSameRoundingsByIntervalsOfOnePlace) {
+    const Formula angle("atan2(u, v)");
+    for (const double u : {-3.0, -0.1, 0.0, 0.1, 0.3, 3.0})
+        for (const double v : {-3.0, -0.3, -0.1, 0.1, 0.7, 3.0})
+            EXPECT_TRUE(angle.at(Interval(u), Interval(v)).value.contains(angle.at(u, v).value))
+                << u << ' ' << v;
+}
+
 TEST(Formula, HasExactSinesAtWholeTurns) {
     EXPECT_EQ(value("sin(2*pi)"), 0);
     EXPECT_EQ(value("cos(2*pi)"), 1);

@@ -185,7 +185,17 @@ inline Quadrant quadrant(double y, double x) {
     return Quadrant::several;
 }
 
+/// Where one formula serves all numbers of both, it is the one that each of them takes alone: its
+/// rounding may differ from another's by more than an end is rounded outward.
 inline Quadrant quadrant(const Interval& y, const Interval& x) {
+    const double highest = magnitude(y);
+    const double widest = magnitude(x);
+    if (x.lower > 0 && highest <= x.lower)
+        return Quadrant::right;
+    if (y.lower > 0 && widest <= y.lower)
+        return Quadrant::above;
+    if (y.upper < 0 && widest <= -y.upper)
+        return Quadrant::below;
     if (x.lower > 0)
         return Quadrant::right;
     if (y.lower > 0)
@@ -197,11 +207,12 @@ inline Quadrant quadrant(const Interval& y, const Interval& x) {
     return Quadrant::several;
 }
 
-inline double unknown_angle(double) {
-    return 0;
+/// Of (0, 0) the angle is 0; otherwise a coordinate is not a number, and so is the angle.
+inline double unknown_angle(double y, double x) {
+    return y + x;
 }
 
-inline Interval unknown_angle(const Interval&) {
+inline Interval unknown_angle(const Interval&, const Interval&) {
     return Interval::whole();
 }
 
@@ -236,7 +247,7 @@ Jet<Number> angle_of(const Jet<Number>& y, const Jet<Number>& x) {
     case Quadrant::several:
         break;
     }
-    const Number unknown = detail::unknown_angle(y.value);
+    const Number unknown = detail::unknown_angle(y.value, x.value);
     return {unknown, unknown, unknown, unknown, unknown, unknown};
 }
 
