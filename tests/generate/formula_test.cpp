@@ -48,10 +48,17 @@ TEST(Formula, KnowsItsFunctions) {
 }
 
 // Closed surfaces are closed to the bit by this.
-TEST(Formula, HasNoAngleWhereACoordinateIsNotANumber) {
+TEST(Formula, HasNoValueWhereAPartOfItHasNone) {
     EXPECT_EQ(value("atan2(0, 0)"), 0);
-    EXPECT_TRUE(std::isnan(Formula("atan2(1, sqrt(u))").at(-1, 0).value));
-    EXPECT_TRUE(std::isnan(Formula("atan2(sqrt(u), 0)").at(-1, 0).value));
+    for (const char* text :
+         {"atan2(1, sqrt(u))",
+          "atan2(sqrt(u), 0)",
+          "min(sqrt(u), 1)",
+          "min(1, sqrt(u))",
+          "max(sqrt(u), 1)",
+          "max(1, sqrt(u))",
+          "abs(sqrt(u))"})
+        EXPECT_TRUE(std::isnan(Formula(text).at(-1, 0).value)) << text;
 }
 
 TEST(Formula, HasTheSameRoundingsByIntervalsOfOnePlace) {

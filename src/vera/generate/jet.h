@@ -144,8 +144,9 @@ Jet<Number> constant_power(const Jet<Number>& a, double exponent) {
         Number(exponent) * Number(exponent - 1) * power(exponent - 2));
 }
 
+/// Not a number where one of them is none.
 inline Jet<double> larger(const Jet<double>& a, const Jet<double>& b) {
-    return a.value >= b.value ? a : b;
+    return a.value >= b.value || std::isnan(a.value) ? a : b;
 }
 
 inline Jet<Interval> larger(const Jet<Interval>& a, const Jet<Interval>& b) {
