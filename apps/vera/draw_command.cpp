@@ -274,7 +274,7 @@ nlohmann::ordered_json as_json(const Report& report, const DrawnScene& drawn) {
 /// Draws the scene and writes the drawing; the caller commits the file. Throws Cancelled.
 DrawnScene draw_and_write(
     PreparedScene& prepared,
-    const DrawSettings& settings,
+    DrawSettings settings,
     const DrawingSettings& file_settings,
     const Request& request,
     OutputFile& file,
@@ -288,6 +288,8 @@ DrawnScene draw_and_write(
     StageProgress stages(display.callback(), is_exposed ? 12 : 10);
     if (is_exposed)
         expose_as_picture(prepared, console, stages.next(2));
+    if (output_format(request) == DrawingFormat::svg)
+        settings.outlines = FaceOutlines::later;
     DrawnScene drawn = draw_scene(
         std::move(prepared.scene),
         prepared.camera,

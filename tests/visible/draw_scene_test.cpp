@@ -157,7 +157,7 @@ TEST(DrawScene, EveryStageEndsThatIsTooLongToWaitFor) {
     const VisiblePieces pieces = cell_raster(screen);
     const VisibleMap map = visible_map(screen, pieces);
     const RegionOutlines regions(map, straight_borders(map, {}));
-    const std::vector<FilledOutline> fills(regions.count());
+    const std::vector<DrawingColor> colors(regions.count());
     const ScreenEdges edges = screen_edges(screen);
     std::vector<std::uint32_t> drawn(edges.edges.size());
     std::iota(drawn.begin(), drawn.end(), 0U);
@@ -187,7 +187,7 @@ TEST(DrawScene, EveryStageEndsThatIsTooLongToWaitFor) {
         [&] { covered_areas(map, {}, {}, &raised); },
         [&] { borders_of(sample, &raised); },
         [&] { widths_of_regions(regions, {}, &raised); },
-        [&] { underlays(regions, fills, {}, &raised); },
+        [&] { underlays(regions, colors, {}, &raised); },
         [&] { hidden_parts(screen, edges, drawn, pieces, {}, {}, &raised); },
         [&] { MapRaster(map, 100, 100, &raised); },
     };
@@ -201,7 +201,7 @@ TEST(DrawScene, LongLoopsOfTheMapAndOfAreasLookAgainAndAgain) {
     const VisiblePieces pieces = cell_raster(screen);
     const VisibleMap map = visible_map(screen, pieces);
     const RegionOutlines regions(map, straight_borders(map, {}));
-    const std::vector<FilledOutline> fills(regions.count());
+    const std::vector<DrawingColor> colors(regions.count());
     const ScreenEdges edges = screen_edges(screen);
     std::vector<std::uint32_t> drawn(edges.edges.size());
     std::iota(drawn.begin(), drawn.end(), 0U);
@@ -211,7 +211,7 @@ TEST(DrawScene, LongLoopsOfTheMapAndOfAreasLookAgainAndAgain) {
         [&](const auto&... told) { visible_map(screen, pieces, told...); },
         [&](const auto&... told) { covered_areas(map, {}, told...); },
         [&](const auto&... told) { widths_of_regions(regions, told...); },
-        [&](const auto&... told) { underlays(regions, fills, told...); },
+        [&](const auto&... told) { underlays(regions, colors, told...); },
         [&](const auto&... told) { hidden_parts(screen, edges, drawn, pieces, {}, told...); },
         [&](const Progress& progress, const CancelFlag* cancel) {
             cell_raster(screen, progress, cancel);

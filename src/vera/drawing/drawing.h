@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "vera/base/parallel.h"
 #include "vera/drawing/line_class.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -118,8 +120,18 @@ struct SharedAreas {
 /// One of the areas by itself.
 FilledOutline outline_of(const SharedAreas& areas, std::size_t number);
 
-/// A vector picture: the background, on it the outlines in their order, on them the areas, on them
-/// the lines, one class after the other. Texts are UTF-8; what is not is replaced.
+/// Outlines that are made when a writer asks for them, some at a time: all of them would take ten
+/// times as much memory as what they are made from. Asked again, both give the same, in the same
+/// order; they throw Cancelled.
+struct LaterFills {
+    std::size_t blocks = 0; ///< 0: there are none
+    std::function<std::vector<FilledOutline>(std::size_t block, const CancelFlag* cancel)> block = {};
+    /// Those of all blocks that have seams, which must be known before any of them is written.
+    std::function<std::vector<FilledOutline>(const CancelFlag* cancel)> with_seams = {};
+};
+
+/// A vector picture: the background, on it the outlines in their order, on them those that are made
+/// later, on them the areas, on them the lines, one class after the other. Texts are UTF-8; what is not is replaced.
 struct Drawing {
     double width = 1; ///< in pixels, positive
     double height = 1;
@@ -127,6 +139,7 @@ struct Drawing {
     std::string description = {};
     std::optional<DrawingColor> background = {};
     std::vector<FilledOutline> fills = {};
+    LaterFills later_fills = {};
     SharedAreas areas = {};
     std::vector<Stroke> strokes = {};
 };

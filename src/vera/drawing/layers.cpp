@@ -4,11 +4,12 @@
 #include "vera/base/check.h"
 #include "vera/base/long_loop.h"
 #include "vera/base/progress_part.h"
-#include "vera/drawing/seams.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <optional>
 #include <span>
 #include <utility>
@@ -51,41 +52,75 @@ std::vector<LineLayer> line_layers(
     return layers;
 }
 
+/// Seams of which nothing was drawn back yet.
+FilledPath snapped_fill(
+    const FilledOutline& fill, const DrawingSettings& settings, const Lattice& lattice) {
+    FilledPath path = {&fill, snapped_rings(fill, lattice), {}};
+    if (settings.cover_seams && !path.rings.empty())
+        path.seams = joined_seams(fill, lattice);
+    return path;
+}
+
+/// In units of the lattice.
+double seam_width(const DrawingSettings& settings, const Lattice& lattice) {
+    const double width = settings.seam_width * lattice.units_per_pixel();
+    VERA_CHECK(width >= 0 && std::isfinite(width));
+    return width;
+}
+
 } // namespace
 
 Layers layers(
     const Drawing& drawing,
     const DrawingSettings& settings,
     const Lattice& lattice,
+    LaterOutlines later,
     const Progress& progress,
     const CancelFlag* cancel) {
     StageProgress stages(progress, 3);
     Layers result;
-    result.fills.resize(drawing.fills.size());
-    long_parallel_loop(drawing.fills.size(), stages.next(1), cancel, 256, [&](std::size_t i) {
-        const FilledOutline& fill = drawing.fills[i];
-        result.fills[i] = {&fill, snapped_rings(fill, lattice), {}};
-        if (settings.cover_seams && !result.fills[i].rings.empty())
-            result.fills[i].seams = joined_seams(fill, lattice);
+    const LaterFills& others = drawing.later_fills;
+    for (std::size_t i = 0; later == LaterOutlines::at_once && i < others.blocks; ++i)
+        std::ranges::move(others.block(i, cancel), std::back_inserter(result.made));
+    const std::size_t given = drawing.fills.size();
+    result.fills.resize(given + result.made.size());
+    long_parallel_loop(result.fills.size(), stages.next(1), cancel, 256, [&](std::size_t i) {
+        result.fills[i] =
+            snapped_fill(i < given ? drawing.fills[i] : result.made[i - given], settings, lattice);
     });
     std::erase_if(result.fills, [](const FilledPath& path) { return path.rings.empty(); });
     result.is_filled = !result.fills.empty();
-    PassedPoints passed;
     for (const FilledPath& path : result.fills)
-        passed.add(path.seams);
-    const double seam_width = settings.seam_width * lattice.units_per_pixel();
-    VERA_CHECK(seam_width >= 0 && std::isfinite(seam_width));
-    const LongLoop seams(result.fills.size(), stages.next(1), cancel, 256);
-    for (std::size_t i = 0; i < result.fills.size(); ++i) {
-        seams.turn(i);
-        draw_ends_back(result.fills[i].seams, result.fills[i].rings, passed, seam_width);
-    }
+        result.passed.add(path.seams);
+    if (later == LaterOutlines::some_at_a_time && others.blocks > 0 && settings.cover_seams)
+        for (const FilledOutline& outline : others.with_seams(cancel))
+            result.passed.add(snapped_fill(outline, settings, lattice).seams);
+    const double width = seam_width(settings, lattice);
+    long_parallel_loop(result.fills.size(), stages.next(1), cancel, 256, [&](std::size_t i) {
+        draw_ends_back(result.fills[i].seams, result.fills[i].rings, result.passed, width);
+    });
 
     // Of the first area most often: it takes no time.
     for (std::size_t i = 0; !result.is_filled && i < drawing.areas.count(); ++i)
         result.is_filled = !snapped_rings(outline_of(drawing.areas, i), lattice).empty();
     result.lines = line_layers(drawing.strokes, settings, lattice, stages.next(1), cancel);
     return result;
+}
+
+std::vector<FilledPath> filled_paths(
+    std::span<const FilledOutline> outlines,
+    const DrawingSettings& settings,
+    const Lattice& lattice,
+    const PassedPoints& passed,
+    const CancelFlag* cancel) {
+    std::vector<FilledPath> paths(outlines.size());
+    const double width = seam_width(settings, lattice);
+    long_parallel_loop(outlines.size(), {}, cancel, 64, [&](std::size_t i) {
+        paths[i] = snapped_fill(outlines[i], settings, lattice);
+        draw_ends_back(paths[i].seams, paths[i].rings, passed, width);
+    });
+    std::erase_if(paths, [](const FilledPath& path) { return path.rings.empty(); });
+    return paths;
 }
 
 AreaPaths

@@ -4,10 +4,12 @@
 #pragma once
 
 #include "vera/drawing/drawing_file.h"
+#include "vera/drawing/seams.h"
 #include "vera/drawing/snapped_path.h"
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -33,15 +35,31 @@ struct LineLayer {
 struct Layers {
     std::vector<FilledPath> fills; ///< without the areas, which take less room as they are
     std::vector<LineLayer> lines;
-    bool is_filled = false; ///< something is left of an outline or an area
+    bool is_filled = false;          ///< something is left of an outline or an area
+    PassedPoints passed;             ///< of the seams of all outlines
+    std::vector<FilledOutline> made; ///< of later outlines, where all are among the fills
 };
+
+/// Whether outlines that are made later are made at once, for those who write the fills one behind
+/// the other, or some at a time: see later_paths().
+enum class LaterOutlines : std::uint8_t { at_once, some_at_a_time };
 
 /// Throws Cancelled.
 Layers layers(
     const Drawing& drawing,
     const DrawingSettings& settings,
     const Lattice& lattice,
+    LaterOutlines later,
     const Progress& progress = {},
+    const CancelFlag* cancel = nullptr);
+
+/// Outlines, those of which something is left, as filled paths, which refer to them. The points are
+/// those that the seams of all outlines pass.
+std::vector<FilledPath> filled_paths(
+    std::span<const FilledOutline> outlines,
+    const DrawingSettings& settings,
+    const Lattice& lattice,
+    const PassedPoints& passed,
     const CancelFlag* cancel = nullptr);
 
 /// Some of the shared areas, those of which something is left, as filled paths.

@@ -3,8 +3,8 @@
 #include "vera/base/output_file.h"
 #include "vera/base/progress_part.h"
 #include "vera/drawing/document_text.h"
+#include "vera/drawing/gradient_numbers.h"
 #include "vera/drawing/layers.h"
-#include "vera/drawing/paints.h"
 #include "vera/drawing/svg_areas.h"
 #include "vera/drawing/svg_path.h"
 
@@ -14,6 +14,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -40,8 +41,13 @@ public:
         : drawing_(drawing)
         , settings_(settings)
         , lattice_(settings.precision)
-        , layers_(layers(drawing, settings, lattice_, progress_part(progress, 0, 2), cancel))
-        , gradients_(layers_.fills)
+        , layers_(layers(
+              drawing,
+              settings,
+              lattice_,
+              LaterOutlines::some_at_a_time,
+              progress_part(progress, 0, 2),
+              cancel))
         , stages_(progress_part(progress, 1, 2), static_cast<double>(1 + layers_.lines.size()))
         , cancel_(cancel)
         , text_(text)
@@ -49,18 +55,25 @@ public:
         // Before the outlines take theirs, so that a layer's id is always the same.
         if (drawing.background)
             background_id_ = ids_.take("background");
-        if (layers_.is_filled)
+        if (layers_.is_filled || drawing.later_fills.blocks > 0)
             fills_id_ = ids_.take("fills");
         for (const LineLayer& layer : layers_.lines)
             line_ids_.push_back(ids_.take(std::string(name_of(layer.style.line_class)) + "-lines"));
-        for (std::size_t i = 0; i < gradients_.count(); ++i)
-            gradient_ids_.push_back(ids_.take(fmt::format("g{}", i + 1)));
+        // Likewise gradients, but for those of outlines that are made later.
+        for (const FilledPath& fill : layers_.fills) {
+            if (fill.outline->gradient)
+                id_of(*fill.outline->gradient);
+            has_seams_ = has_seams_ || !fill.seams.empty();
+        }
     }
 
     void write() {
+        if (drawing_.later_fills.blocks > 0)
+            hold_fills();
         write_head();
         write_style();
-        write_gradients();
+        if (!gradients_text_.empty())
+            text_ += "<defs>\n" + gradients_text_ + "</defs>\n";
         if (drawing_.background)
             text_ += fmt::format(
                 "<rect id=\"{}\" width=\"{}\" height=\"{}\" fill=\"{}\"/>\n",
@@ -68,7 +81,9 @@ public:
                 length(drawing_.width),
                 length(drawing_.height),
                 css_color(*drawing_.background));
-        if (layers_.is_filled)
+        if (!held_.empty())
+            write_held();
+        else if (layers_.is_filled)
             write_fills();
         for (std::size_t i = 0; i < layers_.lines.size(); ++i)
             write_lines(layers_.lines[i], line_ids_[i]);
@@ -78,9 +93,35 @@ public:
     }
 
 private:
+    /// The fills of which some are made but now, as text: what they refer to stands before them.
+    void hold_fills() {
+        std::string before = std::exchange(text_, {});
+        is_holding_ = true;
+        write_fills();
+        pass_on();
+        is_holding_ = false;
+        text_ = std::move(before);
+        if (!layers_.is_filled)
+            held_.clear();
+    }
+
+    void write_held() {
+        pass_on();
+        for (std::string& part : held_) {
+            text_ += part;
+            std::string().swap(part);
+            pass_on();
+        }
+    }
+
     /// What is written so far, into the file: the whole of a large drawing need not be there at a
     /// time. But what ends early must not have written a part of it into a pipe.
     void pass_on() {
+        if (is_holding_) {
+            held_.emplace_back(text_); // as large as it is
+            text_.clear();
+            return;
+        }
         if (file_ == nullptr || !file_->seekable())
             return;
         file_->write(text_);
@@ -116,13 +157,10 @@ private:
 
     void write_style() {
         std::string rules;
-        for (const FilledPath& fill : layers_.fills)
-            if (!fill.seams.empty()) {
-                rules += fmt::format(
-                    ".seam{{fill:none;stroke-width:{};stroke-linejoin:round}}\n",
-                    length(settings_.seam_width));
-                break;
-            }
+        if (has_seams_)
+            rules += fmt::format(
+                ".seam{{fill:none;stroke-width:{};stroke-linejoin:round}}\n",
+                length(settings_.seam_width));
         if (!layers_.lines.empty())
             rules += ".line{fill:none;stroke-linecap:round;stroke-linejoin:round}\n";
         for (std::size_t i = 0; i < layers_.lines.size(); ++i)
@@ -145,29 +183,30 @@ private:
             dashes);
     }
 
-    void write_gradients() {
-        if (gradients_.count() == 0)
-            return;
-        text_ += "<defs>\n";
-        for (std::size_t i = 0; i < gradients_.count(); ++i)
-            write_gradient(gradients_[i], gradient_ids_[i]);
-        text_ += "</defs>\n";
+    /// Of a gradient, which is written when its first outline comes.
+    const std::string& id_of(const Gradient& gradient) {
+        const auto [number, is_new] = gradients_.of(gradient);
+        if (is_new) {
+            gradient_ids_.push_back(ids_.take(fmt::format("g{}", number + 1)));
+            write_gradient(gradient, gradient_ids_.back());
+        }
+        return gradient_ids_[number];
     }
 
     void write_gradient(const Gradient& gradient, const std::string& id) {
         const bool linear = gradient.shape == Gradient::Shape::linear;
         const char* element = linear ? "linearGradient" : "radialGradient";
-        text_ += fmt::format(
+        gradients_text_ += fmt::format(
             R"(<{} id="{}" gradientUnits="userSpaceOnUse" {}>)",
             element,
             id,
             linear ? line_of(gradient) : circle_of(gradient));
         for (const GradientStop& stop : gradient.stops)
-            text_ += fmt::format(
+            gradients_text_ += fmt::format(
                 R"(<stop offset="{}" stop-color="{}"/>)",
                 length(stop.offset),
                 css_color(stop.color));
-        text_ += fmt::format("</{}>\n", element);
+        gradients_text_ += fmt::format("</{}>\n", element);
     }
 
     /// A digit more than those of outlines: colours may change fast along a short axis.
@@ -201,13 +240,11 @@ private:
             "<g id=\"{}\" inkscape:groupmode=\"layer\" inkscape:label=\"{}\">\n",
             fills_id_,
             fills_name);
-        std::optional<std::string> group;
-        const auto end_group = [&] {
-            if (group && !group->empty())
-                text_ += "</g>\n";
-        };
         const Progress progress = stages_.next(1);
-        const double whole = static_cast<double>(layers_.fills.size() + drawing_.areas.count());
+        const SharedAreas& areas = drawing_.areas;
+        const LaterFills& later = drawing_.later_fills;
+        const double whole = static_cast<double>(
+            layers_.fills.size() + block_of_fills * later.blocks + areas.count());
         const auto tell = [&](std::size_t done) {
             stop_if_raised(cancel_);
             if (progress)
@@ -216,27 +253,43 @@ private:
         for_each_block_of_outlines(
             layers_, [&](std::size_t done, std::span<const FilledPath> fills) {
                 tell(done);
-                const std::vector<FillData> data = fill_data(fills);
-                for (std::size_t i = 0; i < fills.size(); ++i) {
-                    if (!group || fills[i].outline->group != *group) {
-                        end_group();
-                        group = fills[i].outline->group;
-                        begin_group(*group);
-                    }
-                    write_fill(fills[i], data[i]);
-                }
-                pass_on();
+                write_block(fills);
             });
+        std::size_t done = layers_.fills.size();
+        for (std::size_t i = 0; i < later.blocks; ++i, done += block_of_fills) {
+            tell(done);
+            const std::vector<FilledOutline> outlines = later.block(i, cancel_);
+            write_block(filled_paths(outlines, settings_, lattice_, layers_.passed, cancel_));
+        }
         end_group();
-        const SharedAreas& areas = drawing_.areas;
         for (std::size_t first = 0; first < areas.count();) {
-            tell(layers_.fills.size() + first);
+            tell(done + first);
             const std::size_t last = end_of_block(areas, first);
             add_svg_areas(areas, lattice_, first, last, text_);
             pass_on();
             first = last;
         }
         text_ += "</g>\n";
+    }
+
+    void write_block(std::span<const FilledPath> fills) {
+        const std::vector<FillData> data = fill_data(fills);
+        for (std::size_t i = 0; i < fills.size(); ++i) {
+            if (!group_ || fills[i].outline->group != *group_) {
+                end_group();
+                group_ = fills[i].outline->group;
+                begin_group(*group_);
+            }
+            write_fill(fills[i], data[i]);
+            has_seams_ = has_seams_ || !fills[i].seams.empty();
+            layers_.is_filled = true;
+        }
+        pass_on();
+    }
+
+    void end_group() {
+        if (group_ && !group_->empty())
+            text_ += "</g>\n";
     }
 
     /// So few areas, and corners, that their text takes no room; one area at least.
@@ -261,7 +314,7 @@ private:
 
     std::vector<FillData> fill_data(std::span<const FilledPath> fills) const {
         std::vector<FillData> data(fills.size());
-        parallel_ranges(fills.size(), 256, [&](std::size_t first, std::size_t last) {
+        parallel_ranges(fills.size(), 64, [&](std::size_t first, std::size_t last) {
             for (std::size_t i = first; i < last; ++i)
                 data[i] = {path_data(fills[i].rings), path_data(fills[i].seams)};
         });
@@ -279,7 +332,7 @@ private:
     void write_fill(const FilledPath& fill, const FillData& data) {
         const FilledOutline& outline = *fill.outline;
         const std::string paint = outline.gradient
-            ? fmt::format("url(#{})", gradient_ids_[gradients_.number_of(*outline.gradient)])
+            ? fmt::format("url(#{})", id_of(*outline.gradient))
             : css_color(outline.color);
         text_ += "<path";
         if (!outline.id.empty())
@@ -318,7 +371,6 @@ private:
     const DrawingSettings& settings_;
     Lattice lattice_;
     Layers layers_;
-    Gradients gradients_;
     StageProgress stages_;
     const CancelFlag* cancel_;
     std::string& text_;
@@ -327,7 +379,13 @@ private:
     std::string background_id_;
     std::string fills_id_;
     std::vector<std::string> line_ids_; ///< of the layers of lines, which are their classes too
+    GradientNumbers gradients_;
     std::vector<std::string> gradient_ids_;
+    std::string gradients_text_;
+    bool has_seams_ = false;
+    std::optional<std::string> group_; ///< that the last outline stands in
+    bool is_holding_ = false;
+    std::vector<std::string> held_; ///< the fills as text, part by part
 };
 
 } // namespace

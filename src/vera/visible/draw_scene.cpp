@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -207,7 +208,16 @@ void make_faces_smooth(const Request& request, SeenScene& seen) {
     seen.faces = std::move(smooth);
 }
 
-Drawing painted(Request& request, const SeenScene& seen, VisibleMap map) {
+/// What a drawing is made of that was made for it alone.
+struct KeptForDrawing {
+    CameraMap camera_map;
+    Facets facets;
+    DrawnFaces faces;
+    VisibleMap map;
+};
+
+/// Takes apart what is seen.
+Drawing painted(Request& request, SeenScene& seen, VisibleMap map) {
     const DrawSettings& settings = request.settings;
     Drawing drawing;
     drawing.width = request.picture.width;
@@ -219,21 +229,25 @@ Drawing painted(Request& request, const SeenScene& seen, VisibleMap map) {
             numbered_areas(std::move(map), seen.primitives, request.picture, request.cancel);
         return drawing;
     }
+    const auto kept = std::make_shared<const KeptForDrawing>(KeptForDrawing{
+        request.camera_map, std::move(seen.facets), std::move(seen.faces), std::move(map)});
     const MapSources sources = {
         request.scene,
         request.camera,
-        request.camera_map,
+        kept->camera_map,
         request.picture,
-        seen.facets,
-        seen.faces,
-        map,
+        kept->facets,
+        kept->faces,
+        kept->map,
         settings.deviation};
-    if (has_fills(settings.style))
-        add_fills(
-            {sources, settings.style, settings.color_tolerance},
-            request.next_stage(request.times.fills),
-            request.cancel,
-            drawing);
+    if (has_fills(settings.style)) {
+        const FillSources of_fills = {sources, settings.style, settings.color_tolerance};
+        const Progress progress = request.next_stage(request.times.fills);
+        if (settings.outlines == FaceOutlines::later)
+            add_later_fills(of_fills, kept, progress, request.cancel, drawing);
+        else
+            add_fills(of_fills, progress, request.cancel, drawing);
+    }
     if (has_lines(settings.style))
         add_strokes(
             {sources, seen.screen, seen.whole.pieces, &seen.uncut},

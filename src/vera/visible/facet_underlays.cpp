@@ -56,7 +56,6 @@ DrawingPoint middle_of(const BorderRing& ring) {
 std::vector<FilledOutline> facet_underlays(
     const FillSources& sources,
     const RegionOutlines& regions,
-    std::span<const LitOutline> lit,
     const Progress& progress,
     const CancelFlag* cancel) {
     StageProgress stages(progress, 4);
@@ -74,9 +73,9 @@ std::vector<FilledOutline> facet_underlays(
             sources.camera,
             sources.picture,
             sources.facets,
-            lit[i].facet,
-            lit[i].lights);
-        const DrawingPoint middle = middle_of(lit[i].region.rings.front());
+            sources.faces.first_facet[face],
+            ~sources.map.regions[i].unlit);
+        const DrawingPoint middle = middle_of(regions.borders(i).front());
         samples[areas.of_source[face]].push_back({middle, light(middle)});
     }
     std::vector<FilledOutline> underlays;

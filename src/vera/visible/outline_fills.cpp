@@ -17,6 +17,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
+#include <memory>
+#include <numeric>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,71 +38,6 @@ std::string group_name(const Scene& scene, std::uint64_t primitive) {
     return item.line == 0 ? name : name + ", line " + std::to_string(item.line);
 }
 
-/// Gives outlines the ids and groups of what they show.
-class OutlineNames {
-public:
-    explicit OutlineNames(const Scene& scene)
-        : scene_(scene) {}
-
-    void name(std::uint64_t primitive, FilledOutline& outline) {
-        if (group_.empty() || primitive != grouped_)
-            group_ = group_name(scene_, primitive);
-        grouped_ = primitive;
-        outline.id = "face-" + std::to_string(primitive + 1);
-        outline.group = group_;
-    }
-
-private:
-    const Scene& scene_;
-    std::uint64_t grouped_ = 0; ///< the primitive whose group the last one was
-    std::string group_;
-};
-
-std::uint32_t facet_of(const FillSources& sources, const RegionOutlines& regions, std::size_t i) {
-    return sources.faces.first_facet[regions.rings(i).front().source];
-}
-
-/// The firmament and, on it, the outlines as the light shades them.
-void add_shaded(
-    const FillSources& sources,
-    const RegionOutlines& regions,
-    const Progress& progress,
-    const CancelFlag* cancel,
-    Drawing& drawing) {
-    StageProgress stages(progress, 10);
-    OutlineNames names(sources.scene);
-    std::vector<LitOutline> lit(regions.count());
-    const LongLoop loop(regions.count(), stages.next(1), cancel, 16);
-    for (std::size_t i = 0; i < regions.count(); ++i) {
-        loop.turn(i);
-        const std::uint32_t facet = facet_of(sources, regions, i);
-        PaintedRegion region;
-        names.name(sources.facets.triangles[facet].primitive, region.outline);
-        region.rings = regions.borders(i);
-        cover_seams_closely(regions, i, region);
-        lit[i] = {std::move(region), facet, ~sources.map.regions[i].unlit};
-    }
-    const PaintTolerance tolerance = {sources.color_tolerance, sources.deviation};
-    DrawnFirmament firmament = drawn_firmament(sources.camera, sources.picture, tolerance, cancel);
-    drawing.background = firmament.background;
-    drawing.fills = std::move(firmament.sky);
-    std::ranges::move(
-        facet_underlays(sources, regions, lit, stages.next(1), cancel),
-        std::back_inserter(drawing.fills));
-    std::ranges::move(
-        shaded_outlines(
-            std::move(lit),
-            {sources.scene,
-             sources.camera,
-             sources.picture,
-             sources.facets,
-             tolerance,
-             regions.curves().all(),
-             stages.next(8),
-             cancel}),
-        std::back_inserter(drawing.fills));
-}
-
 std::vector<DrawingColor> colors_of(
     const FillSources& sources,
     const RegionOutlines& regions,
@@ -112,48 +50,169 @@ std::vector<DrawingColor> colors_of(
     return colors;
 }
 
-/// The outlines in one colour each, on underlays.
-void add_flat(
+/// The faces' outlines, made from the map whenever they are asked for.
+class RegionFills {
+public:
+    /// Adds what lies below the outlines to the drawing.
+    RegionFills(
+        const FillSources& sources,
+        std::shared_ptr<const void> kept,
+        StageProgress stages,
+        const CancelFlag* cancel,
+        Drawing& drawing)
+        : kept_(std::move(kept))
+        , sources_(sources)
+        , regions_(sources.map, curved_borders(sources, stages.next(1), cancel)) {
+        if (is_shaded())
+            start_shaded(stages, cancel, drawing);
+        else
+            start_flat(stages, cancel, drawing);
+        find_seams(stages.next(1), cancel);
+        stages.next(0);
+    }
+
+    std::size_t blocks() const { return (regions_.count() + block_size - 1) / block_size; }
+
+    std::vector<FilledOutline> block(std::size_t number, const CancelFlag* cancel) const {
+        const std::size_t first = number * block_size;
+        const std::size_t last = std::min(regions_.count(), first + block_size);
+        std::vector<std::uint32_t> numbers(last - first);
+        std::iota(numbers.begin(), numbers.end(), static_cast<std::uint32_t>(first));
+        return outlines_of(numbers, cancel);
+    }
+
+    std::vector<FilledOutline> with_seams(const CancelFlag* cancel) const {
+        return outlines_of(with_seams_, cancel);
+    }
+
+private:
+    static constexpr std::size_t block_size = 2048; ///< regions
+
+    bool is_shaded() const { return sources_.style == DrawingStyle::shaded; }
+
+    PaintTolerance tolerance() const { return {sources_.color_tolerance, sources_.deviation}; }
+
+    std::uint32_t facet_of(std::size_t region) const {
+        return sources_.faces.first_facet[regions_.rings(region).front().source];
+    }
+
+    /// The firmament, and what lies below the outlines.
+    void start_shaded(StageProgress& stages, const CancelFlag* cancel, Drawing& drawing) {
+        DrawnFirmament firmament =
+            drawn_firmament(sources_.camera, sources_.picture, tolerance(), cancel);
+        drawing.background = firmament.background;
+        drawing.fills = std::move(firmament.sky);
+        std::ranges::move(
+            facet_underlays(sources_, regions_, stages.next(8), cancel),
+            std::back_inserter(drawing.fills));
+    }
+
+    /// What goes below what, and what lies below all.
+    void start_flat(StageProgress& stages, const CancelFlag* cancel, Drawing& drawing) {
+        widths_ = widths_of_regions(regions_, stages.next(2), cancel);
+        colors_ = colors_of(sources_, regions_, stages.next(3), cancel);
+        drawing.fills = underlays(regions_, colors_, stages.next(3), cancel);
+    }
+
+    void find_seams(const Progress& progress, const CancelFlag* cancel) {
+        const LongLoop loop(regions_.count(), progress, cancel);
+        for (std::size_t i = 0; i < regions_.count(); ++i) {
+            loop.turn(i);
+            if (is_shaded() ? has_seams_closely(regions_, i) : has_seams(regions_, widths_, i))
+                with_seams_.push_back(static_cast<std::uint32_t>(i));
+        }
+    }
+
+    std::vector<FilledOutline>
+    outlines_of(std::span<const std::uint32_t> numbers, const CancelFlag* cancel) const {
+        return is_shaded() ? shaded(numbers, cancel) : flat(numbers, cancel);
+    }
+
+    std::vector<FilledOutline>
+    flat(std::span<const std::uint32_t> numbers, const CancelFlag* cancel) const {
+        std::vector<FilledOutline> fills(numbers.size());
+        long_parallel_loop(numbers.size(), {}, cancel, 64, [&](std::size_t i) {
+            PaintedRegion region = named(numbers[i]);
+            region.outline.color = colors_[numbers[i]];
+            cover_seams(regions_, widths_, colors_, numbers[i], region);
+            add_rings(region, regions_.curves().all());
+            fills[i] = std::move(region.outline);
+        });
+        return fills;
+    }
+
+    /// As the light shades them.
+    std::vector<FilledOutline>
+    shaded(std::span<const std::uint32_t> numbers, const CancelFlag* cancel) const {
+        std::vector<LitOutline> lit(numbers.size());
+        long_parallel_loop(numbers.size(), {}, cancel, 64, [&](std::size_t i) {
+            const std::uint32_t number = numbers[i];
+            PaintedRegion region = named(number);
+            cover_seams_closely(regions_, number, region);
+            lit[i] = {
+                std::move(region), facet_of(number), ~sources_.map.regions[number].unlit};
+        });
+        return shaded_outlines(
+            std::move(lit),
+            {sources_.scene,
+             sources_.camera,
+             sources_.picture,
+             sources_.facets,
+             tolerance(),
+             regions_.curves().all(),
+             {},
+             cancel});
+    }
+
+    /// The region with its rings, and the id and group of what it shows.
+    PaintedRegion named(std::size_t number) const {
+        const std::uint64_t primitive = sources_.facets.triangles[facet_of(number)].primitive;
+        PaintedRegion region;
+        region.rings = regions_.borders(number);
+        region.outline.id = "face-" + std::to_string(primitive + 1);
+        region.outline.group = group_name(sources_.scene, primitive);
+        return region;
+    }
+
+    std::shared_ptr<const void> kept_; ///< what the sources refer to, where nobody else keeps it
+    FillSources sources_;
+    RegionOutlines regions_;
+    std::vector<float> widths_;              ///< of the regions; of areas in one colour each
+    std::vector<DrawingColor> colors_;       ///< likewise
+    std::vector<std::uint32_t> with_seams_; ///< regions
+};
+
+} // namespace
+
+void add_later_fills(
     const FillSources& sources,
-    const RegionOutlines& regions,
+    std::shared_ptr<const void> kept,
     const Progress& progress,
     const CancelFlag* cancel,
     Drawing& drawing) {
-    StageProgress stages(progress, 10);
-    OutlineNames names(sources.scene);
-    const std::vector<float> widths = widths_of_regions(regions, stages.next(1), cancel);
-    const std::vector<DrawingColor> colors = colors_of(sources, regions, stages.next(2), cancel);
-    std::vector<FilledOutline> fills(regions.count());
-    for (std::size_t i = 0; i < regions.count(); ++i) {
-        fills[i].color = colors[i];
-        names.name(sources.facets.triangles[facet_of(sources, regions, i)].primitive, fills[i]);
-    }
-    long_parallel_loop(regions.count(), stages.next(3), cancel, 256, [&](std::size_t i) {
-        PaintedRegion region = {std::move(fills[i]), regions.borders(i), {}};
-        cover_seams(regions, widths, colors, i, region);
-        add_rings(region, regions.curves().all());
-        fills[i] = std::move(region.outline);
-    });
-    drawing.fills = underlays(regions, fills, stages.next(4), cancel);
-    drawing.fills.reserve(drawing.fills.size() + fills.size());
-    std::ranges::move(fills, std::back_inserter(drawing.fills));
+    drawing.background = background_color(sources);
+    const auto fills =
+        std::make_shared<const RegionFills>(
+            sources, std::move(kept), StageProgress(progress, 10), cancel, drawing);
+    drawing.later_fills = {
+        fills->blocks(),
+        [fills](std::size_t block, const CancelFlag* flag) { return fills->block(block, flag); },
+        [fills](const CancelFlag* flag) { return fills->with_seams(flag); }};
 }
-
-} // namespace
 
 void add_fills(
     const FillSources& sources,
     const Progress& progress,
     const CancelFlag* cancel,
     Drawing& drawing) {
-    drawing.background = background_color(sources);
     StageProgress stages(progress, 10);
-    const RegionOutlines regions(sources.map, curved_borders(sources, stages.next(1), cancel));
-    const Progress of_fills = stages.next(9);
-    if (sources.style == DrawingStyle::shaded)
-        add_shaded(sources, regions, of_fills, cancel, drawing);
-    else
-        add_flat(sources, regions, of_fills, cancel, drawing);
+    add_later_fills(sources, nullptr, stages.next(3), cancel, drawing);
+    const LaterFills later = std::exchange(drawing.later_fills, {});
+    const LongLoop loop(later.blocks, stages.next(7), cancel, 1);
+    for (std::size_t i = 0; i < later.blocks; ++i) {
+        loop.turn(i);
+        std::ranges::move(later.block(i, cancel), std::back_inserter(drawing.fills));
+    }
 }
 
 } // namespace vera

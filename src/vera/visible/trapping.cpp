@@ -52,6 +52,40 @@ void go_on_closely(
     std::ranges::move(strips, std::back_inserter(region.below));
 }
 
+/// Whether is(what is seen across) of a part of the region's border beyond which one that is painted
+/// later lies.
+template <typename Is>
+bool is_any_later(const RegionOutlines& regions, std::size_t number, const Is& is) {
+    for (const VisibleMap::Ring& ring : regions.rings(number))
+        for (std::size_t i = ring.first; i < ring.first + ring.count; ++i)
+            if (const std::uint32_t across = regions.map().ring_across[i];
+                across != no_region && across > number && is(across))
+                return true;
+    return false;
+}
+
+bool can_have_strips(const RegionOutlines& regions, std::uint32_t across) {
+    return regions.corner_count(across) <= most_corners;
+}
+
+/// Whether a region may go on below the whole of that one.
+bool is_small(
+    const RegionOutlines& regions, std::span<const float> widths, std::uint32_t across) {
+    constexpr std::size_t few = 16;
+    constexpr float narrow = 2; // pixels: where strips of one come near the other side
+    return regions.corner_count(across) <= few || widths[across] < narrow;
+}
+
+/// Whether a seam's line along the border of one that is not small stays within the region.
+bool has_room_for_seam(
+    const RegionOutlines& regions,
+    std::span<const float> widths,
+    std::size_t number,
+    std::uint32_t across) {
+    constexpr float narrow = 1; // pixels: where half of a seam's line comes near the other side
+    return widths[number] >= narrow || !can_have_strips(regions, across);
+}
+
 /// Whether one may shine through at the other's far border without being seen.
 bool are_alike(DrawingColor a, DrawingColor b) {
     constexpr int alike = 24; // of 255: a quarter of it shines through at most
@@ -89,18 +123,15 @@ void cover_seams(
     std::span<const DrawingColor> colors,
     std::size_t number,
     PaintedRegion& region) {
-    constexpr std::size_t small = 16;
-    constexpr float narrow = 2;        // pixels: where strips of one come near the other side
-    constexpr float narrow_itself = 1; // where half of a seam's line does
     std::vector<std::uint32_t> below;
     const auto cover = [&](std::span<const BorderPoint> border, std::uint32_t across) {
-        const bool can_have_strips = regions.corner_count(across) <= most_corners;
-        if (regions.corner_count(across) > small && widths[across] >= narrow) {
-            if (widths[number] < narrow_itself && can_have_strips)
-                go_on_closely(regions, border, across, region);
-            else
+        if (!is_small(regions, widths, across)) {
+            if (has_room_for_seam(regions, widths, number, across))
                 region.outline.seams.emplace_back(border.begin(), border.end());
-        } else if (!are_alike(colors[number], colors[across]) && can_have_strips) {
+            else
+                go_on_closely(regions, border, across, region);
+        } else if (
+            !are_alike(colors[number], colors[across]) && can_have_strips(regions, across)) {
             go_on_closely(regions, border, across, region);
         } else if (std::find(below.begin(), below.end(), across) == below.end()) {
             below.push_back(across);
@@ -110,14 +141,27 @@ void cover_seams(
     for_each_border_with_later(regions, number, region.rings, cover);
 }
 
+bool has_seams(const RegionOutlines& regions, std::span<const float> widths, std::size_t number) {
+    return is_any_later(regions, number, [&](std::uint32_t across) {
+        return !is_small(regions, widths, across)
+            && has_room_for_seam(regions, widths, number, across);
+    });
+}
+
 void cover_seams_closely(const RegionOutlines& regions, std::size_t number, PaintedRegion& region) {
     const auto cover = [&](std::span<const BorderPoint> border, std::uint32_t across) {
-        if (regions.corner_count(across) > most_corners)
-            region.outline.seams.emplace_back(border.begin(), border.end());
-        else
+        if (can_have_strips(regions, across))
             go_on_closely(regions, border, across, region);
+        else
+            region.outline.seams.emplace_back(border.begin(), border.end());
     };
     for_each_border_with_later(regions, number, region.rings, cover);
+}
+
+bool has_seams_closely(const RegionOutlines& regions, std::size_t number) {
+    return is_any_later(regions, number, [&](std::uint32_t across) {
+        return !can_have_strips(regions, across);
+    });
 }
 
 } // namespace vera

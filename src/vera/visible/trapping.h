@@ -34,8 +34,14 @@ void cover_seams(
     std::size_t number,
     PaintedRegion& region);
 
+/// Whether it gives the region a seam.
+bool has_seams(const RegionOutlines& regions, std::span<const float> widths, std::size_t number);
+
 /// The same for areas that change their colours from place to place: a region goes on below those
 /// beside it only close to their common border, whatever their size.
 void cover_seams_closely(const RegionOutlines& regions, std::size_t number, PaintedRegion& region);
+
+/// Whether it gives the region a seam.
+bool has_seams_closely(const RegionOutlines& regions, std::size_t number);
 
 } // namespace vera

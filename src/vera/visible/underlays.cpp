@@ -43,7 +43,7 @@ struct ColorSum {
 
 std::vector<FilledOutline> underlays(
     const RegionOutlines& regions,
-    std::span<const FilledOutline> fills,
+    std::span<const DrawingColor> colors,
     const Progress& progress,
     const CancelFlag* cancel) {
     StageProgress stages(progress, 4);
@@ -55,7 +55,7 @@ std::vector<FilledOutline> underlays(
         double area = 0;
         for (const VisibleMap::Ring& ring : regions.rings(number))
             area += doubled_area(regions.map(), ring);
-        sums[areas.of_source[regions.rings(number).front().source]].add(fills[number].color, area);
+        sums[areas.of_source[regions.rings(number).front().source]].add(colors[number], area);
     }
     std::vector<FilledOutline> result;
     const LongLoop of_areas(sums.size(), stages.next(1), cancel);

@@ -12,11 +12,10 @@ namespace vera {
 
 /// Where three or more faces meet within a pixel, some of the background would come through,
 /// whatever goes on below what. So what hangs together is painted as a whole before its faces: one
-/// outline for each such area of several regions, in the mean of their colours. fills[i] is region
-/// i, in its one colour. Throws Cancelled.
+/// outline for each such area of several regions, in the mean of their colours. Throws Cancelled.
 std::vector<FilledOutline> underlays(
     const RegionOutlines& regions,
-    std::span<const FilledOutline> fills,
+    std::span<const DrawingColor> colors,
     const Progress& progress = {},
     const CancelFlag* cancel = nullptr);
 
