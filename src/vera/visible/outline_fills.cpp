@@ -7,9 +7,9 @@
 #include "vera/scene/surface.h"
 #include "vera/visible/drawn_borders.h"
 #include "vera/visible/face_color.h"
-#include "vera/visible/facet_underlays.h"
 #include "vera/visible/region_outlines.h"
 #include "vera/visible/shaded_outlines.h"
+#include "vera/visible/shaded_underlays.h"
 #include "vera/visible/trapping.h"
 #include "vera/visible/underlays.h"
 
@@ -84,7 +84,7 @@ void add_shaded(
     drawing.background = firmament.background;
     drawing.fills = std::move(firmament.sky);
     std::ranges::move(
-        facet_underlays(sources, regions, lit, stages.next(1), cancel),
+        shaded_underlays(sources, regions, lit, stages.next(1), cancel),
         std::back_inserter(drawing.fills));
     std::ranges::move(
         shaded_outlines(
