@@ -98,12 +98,6 @@ TEST(CoveredAreas, HangTogetherWhereTheyHaveABorderInCommon) {
         for (const auto& way : outline)
             corners += way.size();
     EXPECT_EQ(corners, 4U + 3U);
-    // Of groups: the first two apart, or only the second.
-    const std::vector<std::uint32_t> apart = {0, 1, 2, 0, 0};
-    EXPECT_EQ(covered_areas(map, apart).outlines.size(), 3U);
-    const std::vector<std::uint32_t> together = {0, 7, 7, 0, 7};
-    const CoveredAreas same = covered_areas(map, together);
-    EXPECT_EQ(same.outlines, areas.outlines);
     EXPECT_TRUE(covered_areas({}).outlines.empty());
 }
 

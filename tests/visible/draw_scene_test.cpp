@@ -184,7 +184,7 @@ TEST(DrawScene, EveryStageEndsThatIsTooLongToWaitFor) {
         [&] { whole_pieces(screen, {}, &raised, VisibilityEngine::sweep); },
         [&] { cut_penetrations(screen, std::vector(1, std::pair(0U, 1U)), &raised); },
         [&] { visible_map(screen, pieces, {}, &raised); },
-        [&] { covered_areas(map, {}, {}, &raised); },
+        [&] { covered_areas(map, {}, &raised); },
         [&] { borders_of(sample, &raised); },
         [&] { widths_of_regions(regions, {}, &raised); },
         [&] { underlays(regions, colors, {}, &raised); },
@@ -209,7 +209,7 @@ TEST(DrawScene, LongLoopsOfTheMapAndOfAreasLookAgainAndAgain) {
     using Stage = std::function<void(const Progress&, const CancelFlag*)>;
     const Stage stages[] = {
         [&](const auto&... told) { visible_map(screen, pieces, told...); },
-        [&](const auto&... told) { covered_areas(map, {}, told...); },
+        [&](const auto&... told) { covered_areas(map, told...); },
         [&](const auto&... told) { widths_of_regions(regions, told...); },
         [&](const auto&... told) { underlays(regions, colors, told...); },
         [&](const auto&... told) { hidden_parts(screen, edges, drawn, pieces, {}, told...); },

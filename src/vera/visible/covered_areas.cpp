@@ -61,16 +61,10 @@ std::vector<std::uint32_t> way_from(std::vector<Side>& sides, Side& first) {
 
 } // namespace
 
-CoveredAreas covered_areas(
-    const VisibleMap& map,
-    std::span<const std::uint32_t> groups,
-    const Progress& progress,
-    const CancelFlag* cancel) {
+CoveredAreas
+covered_areas(const VisibleMap& map, const Progress& progress, const CancelFlag* cancel) {
     StageProgress stages(progress, 3);
     CoveredAreas areas;
-    const auto are_of_one_area = [&](std::uint32_t source, std::uint32_t across) {
-        return across != no_source && (groups.empty() || groups[source] == groups[across]);
-    };
     if (map.rings.empty())
         return areas;
     const std::size_t source_count = std::size_t{map.rings.back().source} + 1;
@@ -80,7 +74,7 @@ CoveredAreas covered_areas(
         stages.next(1),
         cancel,
         [&](std::uint32_t source, std::uint32_t, std::uint32_t, std::uint32_t across) {
-            if (are_of_one_area(source, across))
+            if (across != no_source)
                 joined.join(source, across);
         });
     constexpr std::uint32_t none = ~std::uint32_t{0};
@@ -101,7 +95,7 @@ CoveredAreas covered_areas(
         stages.next(1),
         cancel,
         [&](std::uint32_t source, std::uint32_t from, std::uint32_t to, std::uint32_t across) {
-            if (!are_of_one_area(source, across))
+            if (across == no_source)
                 sides.push_back(
                     {areas.of_source[source],
                      map.ring_vertices[from],

@@ -5,12 +5,11 @@
 #include "vera/visible/visible_map.h"
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 namespace vera {
 
-/// What of a picture is covered, in areas that hang together: in all, or of groups of sources.
+/// What of a picture is covered, in areas that hang together.
 struct CoveredAreas {
     /// Closed ways along which the area is on the left and something else on the right: sides of
     /// the map's rings, each as the place of its first vertex in ring_vertices.
@@ -20,11 +19,8 @@ struct CoveredAreas {
     std::vector<std::uint32_t> of_source; ///< the area of each source that is seen
 };
 
-/// groups[source] is the source's group; without them all are of one. Throws Cancelled.
+/// Throws Cancelled.
 CoveredAreas covered_areas(
-    const VisibleMap& map,
-    std::span<const std::uint32_t> groups = {},
-    const Progress& progress = {},
-    const CancelFlag* cancel = nullptr);
+    const VisibleMap& map, const Progress& progress = {}, const CancelFlag* cancel = nullptr);
 
 } // namespace vera

@@ -7,9 +7,9 @@
 #include "vera/scene/surface.h"
 #include "vera/visible/drawn_borders.h"
 #include "vera/visible/face_color.h"
-#include "vera/visible/facet_underlays.h"
 #include "vera/visible/region_outlines.h"
 #include "vera/visible/shaded_outlines.h"
+#include "vera/visible/shaded_underlays.h"
 #include "vera/visible/trapping.h"
 #include "vera/visible/underlays.h"
 
@@ -103,7 +103,7 @@ private:
         drawing.background = firmament.background;
         drawing.fills = std::move(firmament.sky);
         std::ranges::move(
-            facet_underlays(sources_, regions_, stages.next(8), cancel),
+            shaded_underlays(sources_, regions_, stages.next(8), cancel),
             std::back_inserter(drawing.fills));
     }
 

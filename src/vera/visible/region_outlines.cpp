@@ -29,12 +29,12 @@ std::vector<BorderRing> RegionOutlines::borders(std::size_t region) const {
     return borders;
 }
 
-void RegionOutlines::add_way(std::span<const std::uint32_t> sides, FilledOutline& outline) const {
+BorderRing RegionOutlines::border(std::span<const std::uint32_t> sides) const {
     BorderRing way;
     way.reserve(sides.size());
     for (const std::uint32_t side : sides)
         way.push_back(borders_.point(map_, side));
-    add_ring(way, borders_.curves.all(), outline);
+    return way;
 }
 
 } // namespace vera

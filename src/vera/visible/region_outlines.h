@@ -35,9 +35,9 @@ public:
     /// As they are drawn: one for each of the region's rings.
     std::vector<BorderRing> borders(std::size_t region) const;
 
-    /// Adds a closed way along sides of rings, each given by the place of its first vertex in
+    /// A closed way along sides of rings, each given by the place of its first vertex in
     /// ring_vertices.
-    void add_way(std::span<const std::uint32_t> sides, FilledOutline& outline) const;
+    BorderRing border(std::span<const std::uint32_t> sides) const;
 
 private:
     const VisibleMap& map_;

@@ -47,7 +47,7 @@ std::vector<FilledOutline> underlays(
     const Progress& progress,
     const CancelFlag* cancel) {
     StageProgress stages(progress, 4);
-    const CoveredAreas areas = covered_areas(regions.map(), {}, stages.next(2), cancel);
+    const CoveredAreas areas = covered_areas(regions.map(), stages.next(2), cancel);
     std::vector<ColorSum> sums(areas.outlines.size());
     const LongLoop loop(regions.count(), stages.next(1), cancel);
     for (std::size_t number = 0; number < regions.count(); ++number) {
@@ -67,7 +67,7 @@ std::vector<FilledOutline> underlays(
         underlay.id = "underlay";
         underlay.color = sums[i].mean();
         for (const std::vector<std::uint32_t>& ring : areas.outlines[i])
-            regions.add_way(ring, underlay);
+            add_ring(regions.border(ring), regions.curves().all(), underlay);
     }
     return result;
 }

@@ -10,11 +10,11 @@
 
 namespace vera {
 
-/// Facets narrower than a pixel, and what shadows leave of them, let through what lies behind
-/// several of them. So a piece of many regions is painted as a whole before all faces, in the one
-/// colour or gradient that is nearest to the light in their middles: one outline for each part of
-/// it that hangs together. Throws Cancelled.
-std::vector<FilledOutline> facet_underlays(
+/// Regions narrower than a pixel, and places where several meet in one, let through what lies
+/// behind all of them: of each, what smooths edges leaves. So what hangs together of three regions
+/// and more is painted as a whole before all faces, roughly as the light in their middles is. Throws
+/// Cancelled.
+std::vector<FilledOutline> shaded_underlays(
     const FillSources& sources,
     const RegionOutlines& regions,
     const Progress& progress = {},

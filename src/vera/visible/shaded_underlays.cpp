@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vera/visible/shaded_underlays.h"
+
+#include "vera/base/long_loop.h"
+#include "vera/base/progress_part.h"
+#include "vera/visible/covered_areas.h"
+#include "vera/visible/gradient_fit.h"
+#include "vera/visible/half_plane.h"
+#include "vera/visible/region_light.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+
+namespace vera {
+
+namespace {
+
+/// Of two regions the one goes on below the other, and nothing comes through.
+constexpr std::size_t least_regions = 3;
+
+/// Whose light is told by one gradient, however much it differs.
+constexpr std::size_t few_regions = 16;
+
+/// By how much an underlay may differ from the light in the middles of regions, 1 for 255. What
+/// comes through of it is a quarter, where two edges share a pixel.
+constexpr double rough = 8.0 / 255;
+
+DrawingPoint middle_of(const BorderRing& ring) {
+    DrawingPoint middle;
+    for (const BorderPoint& point : ring) {
+        middle.x += point.x / static_cast<double>(ring.size());
+        middle.y += point.y / static_cast<double>(ring.size());
+    }
+    return middle;
+}
+
+/// The longer side of the rectangle round the samples, as a unit vector.
+DrawingPoint longer_side(std::span<const ColorSample> samples) {
+    const auto extent = [&](double DrawingPoint::*axis) {
+        const auto [least, most] = std::ranges::minmax(
+            samples, {}, [&](const ColorSample& sample) { return sample.point.*axis; });
+        return most.point.*axis - least.point.*axis;
+    };
+    return extent(&DrawingPoint::x) >= extent(&DrawingPoint::y) ? DrawingPoint{1, 0}
+                                                                : DrawingPoint{0, 1};
+}
+
+/// Paints areas roughly as samples are: in one gradient, or cut between the samples, into parts
+/// that have as many each. A part goes on below the next one by a pixel.
+class UnderlayPainter {
+public:
+    UnderlayPainter(
+        double tolerance, std::span<const DrawingEllipse> curves, const CancelFlag* cancel)
+        : tolerance_(tolerance)
+        , curves_(curves)
+        , cancel_(cancel) {}
+
+    /// Puts the samples in another order.
+    void paint(const std::vector<BorderRing>& rings, std::span<ColorSample> samples) {
+        stop_if_raised(cancel_);
+        if (rings.empty())
+            return;
+        const FittedPaint best = best_fit(samples, tolerance_);
+        if (best.error <= std::max(rough, tolerance_) || samples.size() < few_regions) {
+            add(rings, best);
+            return;
+        }
+        constexpr double overlap = 1; // pixels
+        const DrawingPoint across = longer_side(samples);
+        const auto way = [&](const ColorSample& sample) {
+            return across.x * sample.point.x + across.y * sample.point.y;
+        };
+        std::ranges::stable_sort(samples, {}, way);
+        const std::size_t half = samples.size() / 2;
+        const double middle = 0.5 * (way(samples[half - 1]) + way(samples[half]));
+        paint(cut_rings(rings, {across, middle + overlap}), samples.first(half));
+        paint(cut_rings(rings, {{-across.x, -across.y}, -middle}), samples.subspan(half));
+    }
+
+    std::vector<FilledOutline> take() { return std::move(underlays_); }
+
+private:
+    void add(const std::vector<BorderRing>& rings, const FittedPaint& paint) {
+        FilledOutline& underlay = underlays_.emplace_back();
+        underlay.id = "underlay";
+        underlay.color = paint.color;
+        underlay.gradient = paint.gradient;
+        for (const BorderRing& ring : rings)
+            add_ring(ring, curves_, underlay);
+    }
+
+    double tolerance_;
+    std::span<const DrawingEllipse> curves_;
+    const CancelFlag* cancel_;
+    std::vector<FilledOutline> underlays_;
+};
+
+} // namespace
+
+std::vector<FilledOutline> shaded_underlays(
+    const FillSources& sources,
+    const RegionOutlines& regions,
+    const Progress& progress,
+    const CancelFlag* cancel) {
+    StageProgress stages(progress, 4);
+    const CoveredAreas areas = covered_areas(regions.map(), stages.next(2), cancel);
+    std::vector<std::vector<ColorSample>> samples(areas.outlines.size());
+    const LongLoop loop(regions.count(), stages.next(1), cancel, 256);
+    for (std::size_t i = 0; i < regions.count(); ++i) {
+        loop.turn(i);
+        const std::uint32_t face = regions.rings(i).front().source;
+        const RegionLight light(
+            sources.scene,
+            sources.camera,
+            sources.picture,
+            sources.facets,
+            sources.faces.first_facet[face],
+            ~sources.map.regions[i].unlit);
+        const DrawingPoint middle = middle_of(regions.borders(i).front());
+        samples[areas.of_source[face]].push_back({middle, light(middle)});
+    }
+    UnderlayPainter painter(sources.color_tolerance, regions.curves().all(), cancel);
+    const LongLoop of_areas(samples.size(), stages.next(1), cancel, 16);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        of_areas.turn(i);
+        if (samples[i].size() < least_regions)
+            continue;
+        std::vector<BorderRing> rings;
+        for (const std::vector<std::uint32_t>& way : areas.outlines[i])
+            rings.push_back(regions.border(way));
+        painter.paint(rings, samples[i]);
+    }
+    return painter.take();
+}
+
+} // namespace vera
