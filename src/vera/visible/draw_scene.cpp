@@ -133,10 +133,13 @@ SeenScene seen_scene(Request& request) {
     const PictureSettings& picture = request.picture;
     request.next_stage(request.times.facets);
     SeenScene seen;
-    const auto deviation = [&](Vec3 point) {
-        return request.settings.deviation
-            * request.camera_map.size_of_pixel(picture.width, picture.height, point);
-    };
+    const bool throws_shadows = has_shadows(picture, request.settings);
+    const Deviation deviation = deviation_in_pixels(
+        request.camera_map,
+        picture.width,
+        picture.height,
+        request.settings.deviation,
+        throws_shadows ? FacetReach::throwing : FacetReach::seen);
     seen.facets = facets(request.scene, deviation, request.cancel);
     seen.facet_count = seen.facets.triangles.size();
     if (request.is_in_numbers())
