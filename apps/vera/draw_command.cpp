@@ -11,10 +11,12 @@
 #include "vera/visible/draw_scene.h"
 #include "vera/visible/map_check.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -120,6 +122,39 @@ void check_style(const Request& request, DrawingStyle style, DrawingFormat forma
             "--shadow-lines is for styles with lines, and --style {} has none; take --style lines, "
             "hidden-lines or toon",
             request.style));
+}
+
+bool lets_light_through(const Scene& scene, const Item& item) {
+    return item.material != inherited_material && !is_black(material_of(scene, item.material).tab);
+}
+
+/// Tells once where a drawing shows something else than the lighting formula gives for what the
+/// viewer meets first: of materials that let light through. Where the first of them is used.
+std::optional<Diagnostic> transparency_warning(const Scene& scene) {
+    const Item* first = nullptr;
+    std::set<MaterialId> materials;
+    const auto look_at = [&](const Geometry& geometry) {
+        for (const Item& item : geometry.items)
+            if (lets_light_through(scene, item)) {
+                first = first == nullptr ? &item : first;
+                materials.insert(item.material);
+            }
+    };
+    look_at(scene.geometry);
+    std::ranges::for_each(scene.subscenes, look_at);
+    if (first == nullptr)
+        return std::nullopt;
+    Diagnostic warning;
+    warning.severity = Severity::warning;
+    if (first->file < scene.files.size())
+        warning.place = {scene.files[first->file], first->line, 1};
+    const std::string& name = material_of(scene, first->material).name;
+    warning.problem = fmt::format(
+        "{} lets light through{}, and a drawing shows nothing through it and no shadow of it",
+        name.empty() ? "the material" : fmt::format("material '{}'", name),
+        materials.size() > 1 ? fmt::format(" (as {} more)", materials.size() - 1) : "");
+    warning.remedy = "'vera render' follows the light, and TAB 0 0 0 makes the material opaque";
+    return warning;
 }
 
 /// Scales the light as EXPMES would for a picture.
@@ -350,6 +385,9 @@ void draw(const Request& request, Console& console) {
 
     PreparedScene prepared = prepared_scene(request.scene);
     print_diagnostics(prepared.warnings, console);
+    if (has_fills(settings.style) && settings.style != DrawingStyle::ids)
+        if (const auto warning = transparency_warning(prepared.scene))
+            print_diagnostics({&*warning, 1}, console);
     keep_what_was_read(request.scene, prepared.scene, "--output", request.output);
     // Opened before the long work, so that a folder that is not there shows at once.
     OutputFile file(request.output);

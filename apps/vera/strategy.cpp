@@ -31,9 +31,8 @@ constexpr double largest_deviation = 1.0 / 64;
 Facets
 facets_of(const PreparedScene& prepared, const CameraMap& camera_map, const CancelFlag& cancel) {
     const PictureSettings& settings = prepared.settings;
-    const auto deviation = [&](Vec3 point) {
-        return largest_deviation * camera_map.size_of_pixel(settings.width, settings.height, point);
-    };
+    const Deviation deviation = deviation_in_pixels(
+        camera_map, settings.width, settings.height, largest_deviation, FacetReach::seen);
     return facets(prepared.scene, deviation, &cancel);
 }
 

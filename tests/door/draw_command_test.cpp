@@ -362,6 +362,38 @@ TEST(DrawCommand, SaysWhatIsTooNearToBeDrawn) {
     EXPECT_EQ(of_outlines(folder.read("b.svg"), "fill"), std::vector<std::string>{"#000001"});
 }
 
+TEST(DrawCommand, WarnsOnceOfWhatLetsLightThrough) {
+    const ScratchFolder folder;
+    const std::string face = "P3 -1 -1 0  1 -1 0  0 1 0\n";
+    const std::string glass = "MA clay DRF 1 1 1\nMA glass TAB 0.5 0.5 0.5\nMA pane TAB 1 0 0\n";
+    folder.write("clay.vera", view + glass + "CM clay " + face);
+    folder.write(
+        "glass.vera", view + glass + "CM clay " + face + "CM glass\n" + face + "CM pane " + face);
+    const ProgramRun clay = run_vera(folder, "draw clay.vera -o a.svg");
+    ASSERT_EQ(clay.exit_code, 0) << clay.err;
+    EXPECT_FALSE(holds(clay.err, "light through")) << clay.err;
+    const auto lines_before = std::ranges::count(view, '\n') + std::ranges::count(glass, '\n') + 3;
+    const std::string place = "glass.vera:" + std::to_string(lines_before) + ":1: ";
+    for (const char* style : {"flat", "shaded", "toon"}) {
+        const ProgramRun run =
+            run_vera(folder, std::string("draw glass.vera -o b.svg --style ") + style);
+        ASSERT_EQ(run.exit_code, 0) << run.err;
+        EXPECT_TRUE(holds(
+            run.err,
+            place
+                + "warning: material 'glass' lets light through (as 1 more), and a drawing shows "
+                  "nothing through it and no shadow of it"))
+            << run.err;
+        EXPECT_EQ(run.err.find("light through"), run.err.rfind("light through")) << run.err;
+    }
+    for (const char* style : {"ids", "lines"}) {
+        const ProgramRun run =
+            run_vera(folder, std::string("draw glass.vera -o c.svg --style ") + style);
+        ASSERT_EQ(run.exit_code, 0) << run.err;
+        EXPECT_FALSE(holds(run.err, "light through")) << run.err;
+    }
+}
+
 TEST(DrawCommand, ComparesTheDrawingWithRaysOnDemand) {
     const ScratchFolder folder;
     folder.write("a.vera", small_scene);

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "accel/random_scene.h"
+#include "scene/make_scene.h"
 #include "visible/cameras.h"
 #include "visible/map_turns.h"
 #include <gtest/gtest.h>
@@ -101,6 +102,70 @@ TEST(CameraMap, SeesThroughALongLensAndNothingBehind) {
     EXPECT_NEAR(middle.w, 1, 1e-6);
     EXPECT_NEAR(map.size_of_pixel(100, 50, {0, 0, 0}), 0.02, 1e-6);
     EXPECT_TRUE(std::isinf(map.size_of_pixel(100, 50, 2 * camera.viewpoint)));
+}
+
+/// A place of a facet, none of its corners.
+Vec3 place_on(const Facets& facets, const Facets::Triangle& facet, double part, double other) {
+    const Vec3 a = facets.corners[facet.corners[0]];
+    const Vec3 b = facets.corners[facet.corners[1]];
+    const Vec3 c = facets.corners[facet.corners[2]];
+    return a + part * (b - a) + other * (1 - part) * (c - a);
+}
+
+TEST(DeviationInPixels, OfSurfacesRoundTheViewerIsKeptInThePictureWithFewFacetsBesideIt) {
+    constexpr double pixels = 512;
+    constexpr double deviation = 0.1;
+    for (int number = 0; number < 8; ++number) {
+        Camera camera = camera_number(number);
+        camera.projection = Camera::Projection::perspective;
+        const CameraMap map(camera);
+        Scene scene;
+        Sphere sphere;
+        sphere.center = camera.viewpoint + Vec3{1, -2, 0.5};
+        sphere.radius = 50;
+        test::add(scene.geometry, sphere);
+        number_primitives(scene);
+        for (const FacetReach reach : {FacetReach::seen, FacetReach::throwing}) {
+            const Facets all =
+                facets(scene, deviation_in_pixels(map, pixels, pixels, deviation, reach));
+            EXPECT_LT(all.triangles.size(), 100'000U) << number;
+            int compared = 0;
+            for (const Facets::Triangle& facet : all.triangles)
+                for (const double part : {0.25, 0.5, 0.75}) {
+                    const Vec3 at = place_on(all, facet, part, 0.5);
+                    const ImagePoint p = map.image_point(at);
+                    if (p.w <= 0 || p.x < 0 || p.x > p.w || p.y < 0 || p.y > p.w)
+                        continue;
+                    ++compared;
+                    EXPECT_LE(
+                        sphere.radius - length(at - sphere.center),
+                        1.001 * deviation * map.size_of_pixel(pixels, pixels, at))
+                        << number;
+                }
+            EXPECT_GT(compared, 100) << number;
+        }
+    }
+}
+
+TEST(DeviationInPixels, BehindTheViewerCountsWhereShadowsAreThrown) {
+    Camera camera;
+    camera.viewpoint = {0, 0, 4};
+    camera.lower_left = {-1, -1, 0};
+    camera.lower_right = {1, -1, 0};
+    camera.upper_left = {-1, 1, 0};
+    const CameraMap map(camera);
+    const auto count = [&](double distance, FacetReach reach) {
+        Scene scene;
+        test::add(scene.geometry, Sphere{{0, 0, 4 - distance}, 1});
+        number_primitives(scene);
+        const Deviation deviation = deviation_in_pixels(map, 512, 512, 0.1, reach);
+        return static_cast<double>(facets(scene, deviation).triangles.size());
+    };
+    const double before = count(8, FacetReach::seen);
+    EXPECT_EQ(count(8, FacetReach::throwing), before);
+    EXPECT_LT(count(-8, FacetReach::seen), 50);
+    EXPECT_GT(count(-8, FacetReach::throwing), 0.6 * before);
+    EXPECT_LT(count(-8, FacetReach::throwing), 1.2 * before);
 }
 
 } // namespace

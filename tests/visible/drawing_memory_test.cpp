@@ -95,9 +95,9 @@ TEST(DrawingMemory, TheRasterTakesWhatIsForetold) {
         const double taken = most_bytes_of([&] { pieces = cell_raster(scene).pieces.size(); });
         const double told =
             raster_bytes(counts_of(scene)) + piece_bytes(static_cast<double>(pieces));
-        constexpr double few = 0x1p19; // cells may list, however few triangles there are
+        constexpr double few = 0x1p21; // lists that grow, and cells of many entries
         EXPECT_GE(told, taken - few) << family.name;
-        EXPECT_LE(told, taken * 2.25) << family.name;
+        EXPECT_LE(told, taken * 1.5 + few / 4) << family.name;
     }
 }
 
@@ -154,6 +154,52 @@ SceneInView spheres(std::size_t count) {
     return view;
 }
 
+/// Chessmen, about: turned shapes of convex and other pieces, on a board of squares.
+SceneInView men(std::size_t count) {
+    SceneInView view = unit_cube_in_view();
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> any(0, 1);
+    for (std::size_t i = 0; i < count; ++i) {
+        RotationalShape man;
+        man.base.x = any(random);
+        man.base.y = any(random);
+        man.base.z = 0.2 + 0.6 * any(random);
+        man.axis = normalized({any(random) - 0.5, 0.4, 0.8});
+        const double r = 0.05 + 0.05 * any(random);
+        man.start = {0, 0};
+        const auto line_to = [&](double radius, double height) {
+            ContourPiece piece;
+            piece.end = {radius * r, height * r};
+            man.contour.push_back(piece);
+        };
+        const auto conic_to = [&](ContourPiece::Point control, ContourPiece::Point end) {
+            ContourPiece piece;
+            piece.kind = ContourPiece::Kind::conic;
+            piece.control[0] = {control.r * r, control.h * r};
+            piece.weight = 0.7;
+            piece.end = {end.r * r, end.h * r};
+            man.contour.push_back(piece);
+        };
+        line_to(1, 0);
+        line_to(1, 0.3);
+        conic_to({0.3, 0.5}, {0.3, 1.5});
+        conic_to({1, 1.6}, {0.9, 2.2});
+        conic_to({0.7, 2.6}, {0, 2.6});
+        test::add(view.scene.geometry, man);
+    }
+    for (int i = 0; i < 64; ++i) {
+        const double x = i % 8 / 8.0;
+        const double y = i / 8 / 8.0;
+        test::add_polygon(
+            view.scene.geometry,
+            {{x, y, 0.1}, {x + 0.125, y, 0.1}, {x + 0.125, y + 0.125, 0.1}, {x, y + 0.125, 0.1}});
+    }
+    view.scene.lights.resize(1);
+    view.scene.lights[0].position = {0.2, 0.9, 3};
+    number_primitives(view.scene);
+    return view;
+}
+
 TEST(DrawingMemory, ADrawingTakesWhatIsForetold) {
     if (memory_is_watched())
         GTEST_SKIP() << "a sanitizer takes memory of its own";
@@ -162,11 +208,13 @@ TEST(DrawingMemory, ADrawingTakesWhatIsForetold) {
     picture.width = picture.height = 800;
     picture.shadows = false;
     const SceneInView views[] = {
-        in_space(testing::scattered(1, 15'000, screen_size / 80)),
-        in_space(testing::scattered(1, 30'000, screen_size / 400)),
-        in_space(testing::terrain(1, 90)),
-        in_space(testing::balls(1, 20, 24)),
-        spheres(20)};
+        in_space(testing::scattered(1, 3'000, screen_size / 40)),
+        in_space(testing::scattered(1, 6'000, screen_size / 180)),
+        in_space(testing::terrain(1, 45)),
+        in_space(testing::balls(1, 10, 24)),
+        in_space(testing::slivers(1, 1'000)),
+        spheres(6),
+        men(4)};
     for (const SceneInView& view : views) {
         const Scene& scene = view.scene;
         const Camera& camera = view.camera;
@@ -203,12 +251,22 @@ TEST(DrawingMemory, ADrawingTakesWhatIsForetold) {
             });
             const auto count = static_cast<double>(pieces.pieces.size());
             const bool forgets_facets = style == DrawingStyle::ids;
+            ScreenCounts counts = counts_of(on_screen);
+            counts.curved = static_cast<std::size_t>(
+                curved_part_of(all) * static_cast<double>(counts.surfaces));
             const double told_then = all_there - (forgets_facets ? facets_there : 0)
                 + std::max(raster_bytes(counts_of(on_screen)) + piece_bytes(count),
-                           drawing_bytes(count, on_screen.triangles.size(), style));
+                           drawing_bytes(count, counts, style));
             const double told = std::max(taken_before, told_then);
-            EXPECT_GE(told, taken / 1.1) << static_cast<int>(style);
-            EXPECT_LE(told, taken * 2.5) << static_cast<int>(style);
+            constexpr double few = 0x1p19;
+            const std::string what = "scene " + std::to_string(&view - views) + ", style "
+                + std::to_string(static_cast<int>(style));
+            EXPECT_GE(told, taken - few) << what;
+            // Beside what is of another colour, and of smooth faces, there is half of what is
+            // foretold.
+            const bool varies = style == DrawingStyle::flat || style == DrawingStyle::shaded;
+            const double most = varies ? 2.2 : 1.6;
+            EXPECT_LE(told, taken * most + few) << what;
         }
     }
 }
@@ -267,7 +325,7 @@ TEST(DrawingMemory, WhatDoesNotFitIsRefusedBeforeItIsTaken) {
     EXPECT_LT(taken, 1e6);
     EXPECT_THAT(refusal([] { require_piece_memory(1e6); }), HasSubstr("about 1000000 pieces"));
     EXPECT_THAT(
-        refusal([] { require_drawing_memory(1e6, 1, DrawingStyle::flat); }),
+        refusal([] { require_drawing_memory(1e6, ScreenCounts{}, DrawingStyle::flat); }),
         HasSubstr("MiB of memory, and 1 MiB are available: a larger --deviation"));
     taken = most_bytes_of([&] {
         EXPECT_THAT(

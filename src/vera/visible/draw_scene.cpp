@@ -110,9 +110,12 @@ struct Request {
     }
 
     /// Refuses a drawing that would not fit into memory.
-    ExpectPieces expect_pieces(const ScreenScene& screen) const {
-        return [&screen, style = settings.style](double pieces) {
-            require_drawing_memory(pieces, counts_of(screen).surfaces, style);
+    ExpectPieces expect_pieces(const ScreenScene& screen, double curved_part) const {
+        return [&screen, curved_part, style = settings.style](double pieces) {
+            ScreenCounts counts = counts_of(screen);
+            counts.curved =
+                static_cast<std::size_t>(curved_part * static_cast<double>(counts.surfaces));
+            require_drawing_memory(pieces, counts, style);
         };
     }
 };
@@ -125,8 +128,9 @@ struct SeenScene {
     /// what is seen needs their room.
     std::vector<std::uint64_t> primitives;
     std::size_t facet_count = 0;
-    ScreenScene screen; ///< whose sources are the faces
-    ScreenScene uncut;  ///< the same before what penetrates was cut, where hidden lines are drawn
+    double curved_part = 0; ///< of the facets, about
+    ScreenScene screen;     ///< whose sources are the faces
+    ScreenScene uncut; ///< the same before what penetrates was cut, where hidden lines are drawn
     WholePieces whole;
 };
 
@@ -134,12 +138,16 @@ SeenScene seen_scene(Request& request) {
     const PictureSettings& picture = request.picture;
     request.next_stage(request.times.facets);
     SeenScene seen;
-    const auto deviation = [&](Vec3 point) {
-        return request.settings.deviation
-            * request.camera_map.size_of_pixel(picture.width, picture.height, point);
-    };
+    const bool throws_shadows = has_shadows(picture, request.settings);
+    const Deviation deviation = deviation_in_pixels(
+        request.camera_map,
+        picture.width,
+        picture.height,
+        request.settings.deviation,
+        throws_shadows ? FacetReach::throwing : FacetReach::seen);
     seen.facets = facets(request.scene, deviation, request.cancel);
     seen.facet_count = seen.facets.triangles.size();
+    seen.curved_part = curved_part_of(seen.facets);
     if (request.is_in_numbers())
         check_numbers(seen.facets);
     // Shadows fall on plane faces; these become larger ones after.
@@ -172,7 +180,7 @@ SeenScene seen_scene(Request& request) {
         request.next_stage(request.times.seeing),
         request.cancel,
         request.settings.engine,
-        request.expect_pieces(seen.screen));
+        request.expect_pieces(seen.screen, seen.curved_part));
     return seen;
 }
 
@@ -197,7 +205,7 @@ ShadowCounts see_shadows(Request& request, SeenScene& seen) {
         seen.screen,
         request.next_stage(request.times.seeing_shadows),
         request.cancel,
-        request.expect_pieces(seen.screen));
+        request.expect_pieces(seen.screen, seen.curved_part));
     return counts;
 }
 

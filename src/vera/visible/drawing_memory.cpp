@@ -29,50 +29,85 @@ ScreenCounts counts_of(const ScreenScene& scene) {
     return counts;
 }
 
+double curved_part_of(const Facets& facets) {
+    constexpr std::size_t many = 32;
+    const auto& triangles = facets.triangles;
+    std::size_t curved = 0;
+    for (std::size_t first = 0, end = 0; first < triangles.size(); first = end) {
+        while (end < triangles.size() && triangles[end].primitive == triangles[first].primitive)
+            ++end;
+        curved += end - first >= many ? end - first : 0;
+    }
+    return triangles.empty() ? 0
+                             : static_cast<double>(curved) / static_cast<double>(triangles.size());
+}
+
 double raster_bytes(const ScreenCounts& counts) {
-    constexpr double per_surface = 230; // with 1.5 to 6 cells, of which shadows ask for none
-    constexpr double per_shadow = 170;
-    constexpr double per_edge = 34;
-    constexpr double per_vertex = 8;
+    constexpr double per_surface = 131; // with eight entries in lists of cells
+    constexpr double per_shadow = 125;
+    constexpr double per_edge = 20;
+    constexpr double per_cell = 12;
     const std::size_t triangles = counts.surfaces + counts.shadows;
     // Of a surface as many as both together; of triangles that have nothing in common, three each.
     const std::size_t edges = std::min(3 * triangles, triangles + counts.vertices);
+    double cells = 4; // as cells_of() has them
+    while (cells < 1.5 * static_cast<double>(counts.surfaces))
+        cells *= 4;
     return per_surface * static_cast<double>(counts.surfaces)
         + per_shadow * static_cast<double>(counts.shadows) + per_edge * static_cast<double>(edges)
-        + per_vertex * static_cast<double>(counts.vertices);
+        + per_cell * cells;
 }
 
 double piece_bytes(double pieces, double pairs) {
-    constexpr double per_piece = 95; // with a point, in parts and as one list
+    constexpr double per_piece = 55; // with a point, in parts and as one list
     constexpr double per_pair = 24;
     return per_piece * pieces + per_pair * pairs;
 }
 
-double drawing_bytes(double pieces, std::size_t surfaces, DrawingStyle style) {
-    double per_piece = 0;
-    double per_surface = 0;
+namespace {
+
+/// Bytes that a style takes, by what it takes them for.
+struct StyleBytes {
+    double piece = 0;
+    double curved_piece = 0; ///< beside these, along curved surfaces
+    double region = 0;
+    double curved_region = 0; ///< in place of these, of curved surfaces
+    double surface = 0;       ///< whose edges may be hidden lines
+    double curved_surface = 0;
+};
+
+StyleBytes bytes_of(DrawingStyle style) {
     switch (style) {
     case DrawingStyle::flat:
-        per_piece = 720; // of curved surfaces, whose borders are arcs
-        break;
-    case DrawingStyle::shaded:
-        per_piece = 800;
-        break;
-    case DrawingStyle::ids:
-        per_piece = 80; // as areas that share their corners
-        break;
+        // Regions of colours that are alike go on below the whole of each other: others take half.
+        return {.piece = 340, .curved_piece = 60, .region = 920, .curved_region = 520};
+    case DrawingStyle::shaded: // curved ones are smooth faces, or facets
+        return {.piece = 330, .curved_piece = -30, .region = 900, .curved_region = 320};
+    case DrawingStyle::ids: // as areas that share their corners
+        return {.piece = 75};
     case DrawingStyle::lines:
-        per_piece = 450;
-        break;
-    case DrawingStyle::hidden_lines:
-        per_piece = 650;
-        per_surface = 400; // whose edges may be hidden lines
-        break;
+        return {.piece = 390};
+    case DrawingStyle::hidden_lines: // the edges of smooth ones are none
+        return {.piece = 440, .surface = 530, .curved_surface = 150};
     case DrawingStyle::toon:
-        per_piece = 850;
-        break;
+        return {.piece = 420, .region = 730, .curved_region = 530, .surface = 70};
     }
-    return per_piece * pieces + per_surface * static_cast<double>(surfaces);
+    return {};
+}
+
+} // namespace
+
+double drawing_bytes(double pieces, const ScreenCounts& counts, DrawingStyle style) {
+    const StyleBytes bytes = bytes_of(style);
+    const auto surfaces = static_cast<double>(counts.surfaces);
+    const auto curved = static_cast<double>(counts.curved);
+    const double part = surfaces > 0 ? std::min(curved / surfaces, 1.0) : 0;
+    // Each surface has one, and what shadows leave of it. Of its three sides and more two may have
+    // each.
+    const double regions = std::min(surfaces + static_cast<double>(counts.shadows), 2 * pieces / 3);
+    return pieces * (bytes.piece + part * bytes.curved_piece)
+        + regions * ((1 - part) * bytes.region + part * bytes.curved_region)
+        + surfaces * ((1 - part) * bytes.surface + part * bytes.curved_surface);
 }
 
 void require_raster_memory(const ScreenScene& scene) {
@@ -91,9 +126,12 @@ void require_piece_memory(double pieces, double pairs) {
         remedy);
 }
 
-void require_drawing_memory(double pieces, std::size_t surfaces, DrawingStyle style) {
+void require_drawing_memory(double pieces, const ScreenCounts& counts, DrawingStyle style) {
+    // What edges are compared with is there now, and given back before. Its forecast may be half
+    // too large.
+    const double given_back = raster_bytes(counts) / 1.5;
     require_memory(
-        std::max(piece_bytes(pieces), drawing_bytes(pieces, surfaces, style)),
+        std::max(piece_bytes(pieces), drawing_bytes(pieces, counts, style) - given_back),
         "the drawing would have about " + about(pieces) + " lines between what is seen, which",
         remedy);
 }

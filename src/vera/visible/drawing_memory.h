@@ -3,6 +3,7 @@
 // what each was measured to take; see tests/visible/drawing_memory_test.cpp.
 #pragma once
 
+#include "vera/scene/facets.h"
 #include "vera/visible/drawing_style.h"
 #include "vera/visible/screen_scene.h"
 
@@ -15,9 +16,13 @@ struct ScreenCounts {
     std::size_t surfaces = 0; ///< triangles
     std::size_t shadows = 0;  ///< triangles
     std::size_t vertices = 0;
+    std::size_t curved = 0; ///< of the surfaces, those that are facets of curved ones, about
 };
 
 ScreenCounts counts_of(const ScreenScene& scene);
+
+/// Which part of the facets is of curved surfaces, about: of primitives in 32 facets and more.
+double curved_part_of(const Facets& facets);
 
 /// What all edges are compared with while cell_raster() runs, beside the scene.
 double raster_bytes(const ScreenCounts& counts);
@@ -25,9 +30,9 @@ double raster_bytes(const ScreenCounts& counts);
 /// The pieces, and pairs of triangles that pass through each other, while cell_raster() finds them.
 double piece_bytes(double pieces, double pairs = 0);
 
-/// What is made of so many pieces of so many surfaces, from the map to the text of the file, beside
-/// the pieces.
-double drawing_bytes(double pieces, std::size_t surfaces, DrawingStyle style);
+/// What is made of so many pieces, from the map to the text of the file, in place of what edges
+/// were compared with.
+double drawing_bytes(double pieces, const ScreenCounts& counts, DrawingStyle style);
 
 /// Throws std::runtime_error where the memory that is available does not suffice for cell_raster()
 /// of the scene, whatever is seen of it.
@@ -36,8 +41,8 @@ void require_raster_memory(const ScreenScene& scene);
 /// The same of the pieces and pairs, if so many are expected.
 void require_piece_memory(double pieces, double pairs = 0);
 
-/// The same of the whole drawing.
-void require_drawing_memory(double pieces, std::size_t surfaces, DrawingStyle style);
+/// The same of the whole drawing, while cell_raster() has what edges are compared with.
+void require_drawing_memory(double pieces, const ScreenCounts& counts, DrawingStyle style);
 
 /// Looks, while shadows are added to a scene, whether there will be memory to see them.
 class ShadowMemory {

@@ -253,6 +253,14 @@ CameraMap::CameraMap(const Camera& camera)
             "let the three corners of the picture span a plane, and the view not lie in it";
         throw InputError({problem});
     }
+    if (!is_parallel_) {
+        viewpoint_ = rays.origin_or_direction;
+        farthest_corner_ = std::max(
+            {distance,
+             length(rays.corner + rays.across),
+             length(rays.corner + rays.up),
+             length(rays.corner + rays.across + rays.up)});
+    }
     const Vec3 sizes = {width_, height_, distance};
     Vec3& translation = from_world->translation;
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -271,6 +279,24 @@ double CameraMap::size_of_pixel(double columns, double rows, Vec3 point) const {
     if (!(w > 0))
         return std::numeric_limits<double>::infinity();
     return std::min(width_ / columns, height_ / rows) * std::max(w, nearest_part);
+}
+
+double CameraMap::size_of_pixel_around(double columns, double rows, Vec3 point) const {
+    const double pixel = std::min(width_ / columns, height_ / rows);
+    if (is_parallel_)
+        return pixel;
+    // In the picture w is the larger one: a point of the image plane is no farther than the corner.
+    const double at_corner = length(point - viewpoint_) / farthest_corner_;
+    return pixel * std::max({image_point(point).w, at_corner, nearest_part});
+}
+
+Deviation deviation_in_pixels(
+    const CameraMap& map, double columns, double rows, double pixels, FacetReach reach) {
+    return [=, &map](Vec3 point) {
+        if (reach == FacetReach::seen && !(map.image_point(point).w > 0))
+            return std::numeric_limits<double>::infinity();
+        return pixels * map.size_of_pixel_around(columns, rows, point);
+    };
 }
 
 ScreenScene screen_scene(

@@ -37,12 +37,30 @@ public:
     /// never 0. Infinite where nothing is seen: behind the view point.
     double size_of_pixel(double columns, double rows, Vec3 point) const;
 
+    /// The same in all directions: where nothing is seen, beside the picture and behind the viewer,
+    /// as large as it is in the farthest corner of the picture at that distance.
+    double size_of_pixel_around(double columns, double rows, Vec3 point) const;
+
 private:
     Affine3 from_world_;
     bool is_parallel_ = false;
     double width_ = 0; ///< of the picture in the image plane
     double height_ = 0;
+    Vec3 viewpoint_;             ///< unless the rays are parallel
+    double farthest_corner_ = 1; ///< of the picture in the image plane, from the view point
 };
+
+/// Whose curved surfaces are to be near to what they stand for.
+enum class FacetReach {
+    seen,    ///< what lies before the viewer
+    throwing ///< all that may throw shadows into the picture
+};
+
+/// How far facets may lie off curved surfaces: so many pixels of a picture. What the picture does
+/// not show has facets as at its corners, since in the plane of the viewer a pixel has no size;
+/// behind it, where nothing there throws shadows, as few as may be. Refers to the map.
+Deviation deviation_in_pixels(
+    const CameraMap& map, double columns, double rows, double pixels, FacetReach reach);
 
 /// The facets as the camera sees them: cut at the frame and before the viewer, and moved to the
 /// grid, of which y grows downward. sources[i] is that of facet i. Points that coincide are one.
