@@ -48,15 +48,17 @@ double piece_bytes(double pieces, double pairs) {
     return per_piece * pieces + per_pair * pairs;
 }
 
-double drawing_bytes(double pieces, std::size_t surfaces, DrawingStyle style) {
+double
+drawing_bytes(double pieces, std::size_t surfaces, DrawingStyle style, FaceOutlines outlines) {
+    const bool are_later = outlines == FaceOutlines::later;
     double per_piece = 0;
     double per_surface = 0;
     switch (style) {
     case DrawingStyle::flat:
-        per_piece = 720; // of curved surfaces, whose borders are arcs
+        per_piece = are_later ? 250 : 705; // of curved surfaces, whose borders are arcs
         break;
     case DrawingStyle::shaded:
-        per_piece = 800;
+        per_piece = are_later ? 320 : 600;
         break;
     case DrawingStyle::ids:
         per_piece = 80; // as areas that share their corners
@@ -69,7 +71,7 @@ double drawing_bytes(double pieces, std::size_t surfaces, DrawingStyle style) {
         per_surface = 400; // whose edges may be hidden lines
         break;
     case DrawingStyle::toon:
-        per_piece = 850;
+        per_piece = are_later ? 500 : 850;
         break;
     }
     return per_piece * pieces + per_surface * static_cast<double>(surfaces);
@@ -91,9 +93,10 @@ void require_piece_memory(double pieces, double pairs) {
         remedy);
 }
 
-void require_drawing_memory(double pieces, std::size_t surfaces, DrawingStyle style) {
+void require_drawing_memory(
+    double pieces, std::size_t surfaces, DrawingStyle style, FaceOutlines outlines) {
     require_memory(
-        std::max(piece_bytes(pieces), drawing_bytes(pieces, surfaces, style)),
+        std::max(piece_bytes(pieces), drawing_bytes(pieces, surfaces, style, outlines)),
         "the drawing would have about " + about(pieces) + " lines between what is seen, which",
         remedy);
 }

@@ -27,7 +27,11 @@ double piece_bytes(double pieces, double pairs = 0);
 
 /// What is made of so many pieces of so many surfaces, from the map to the text of the file, beside
 /// the pieces.
-double drawing_bytes(double pieces, std::size_t surfaces, DrawingStyle style);
+double drawing_bytes(
+    double pieces,
+    std::size_t surfaces,
+    DrawingStyle style,
+    FaceOutlines outlines = FaceOutlines::now);
 
 /// Throws std::runtime_error where the memory that is available does not suffice for cell_raster()
 /// of the scene, whatever is seen of it.
@@ -37,7 +41,11 @@ void require_raster_memory(const ScreenScene& scene);
 void require_piece_memory(double pieces, double pairs = 0);
 
 /// The same of the whole drawing.
-void require_drawing_memory(double pieces, std::size_t surfaces, DrawingStyle style);
+void require_drawing_memory(
+    double pieces,
+    std::size_t surfaces,
+    DrawingStyle style,
+    FaceOutlines outlines = FaceOutlines::now);
 
 /// Looks, while shadows are added to a scene, whether there will be memory to see them.
 class ShadowMemory {
