@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/drawing/document_text.h"
 
+#include <random>
+#include <set>
+#include <string>
+
 #include <gtest/gtest.h>
 
 namespace vera::detail {
@@ -46,6 +50,22 @@ TEST(UniqueIds, AreNamesAndAreGivenOnce) {
     EXPECT_EQ(ids.take("7"), "_7");
     EXPECT_EQ(ids.take(""), "_");
     EXPECT_EQ(ids.take("A_1.x"), "A_1.x");
+}
+
+TEST(UniqueIds, AreTheFirstThatNoOtherHas) {
+    std::mt19937 random(1);
+    UniqueIds ids;
+    std::set<std::string> given;
+    for (int i = 0; i < 2000; ++i) {
+        std::string wanted = "a";
+        for (auto parts = random() % 3; parts > 0; --parts)
+            wanted.append("-").append(std::to_string(2 + random() % 40));
+        std::string expected = wanted;
+        for (int number = 2; given.contains(expected); ++number)
+            expected = std::string(wanted).append("-").append(std::to_string(number));
+        EXPECT_EQ(ids.take(wanted), expected);
+        given.insert(expected);
+    }
 }
 
 } // namespace

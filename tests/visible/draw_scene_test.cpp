@@ -3,6 +3,7 @@
 // thread, so that the calls of the progress come in one order.
 #include "vera/accel/brute_force.h"
 #include "vera/base/parallel.h"
+#include "vera/drawing/drawing_file.h"
 #include "vera/visible/covered_areas.h"
 #include "vera/visible/draw_scene.h"
 #include "vera/visible/drawn_borders.h"
@@ -98,6 +99,27 @@ DrawnBorders borders_of(const Sample& sample, const CancelFlag* cancel) {
         {sample.scene, sample.camera, camera_map, sample.picture, all, faces, map, deviation},
         {},
         cancel);
+}
+
+TEST(DrawScene, OutlinesThatAreMadeWhileTheyAreWrittenAreTheSame) {
+    Sample sample;
+    for (const DrawingStyle style :
+         {DrawingStyle::flat, DrawingStyle::shaded, DrawingStyle::toon}) {
+        sample.picture.shadows = style != DrawingStyle::toon;
+        DrawSettings settings;
+        settings.style = style;
+        settings.deviation = 0.5;
+        std::string now;
+        write_svg(sample.draw(settings, {}, nullptr).drawing, {}, now);
+        settings.outlines = FaceOutlines::later;
+        for (const std::size_t threads : {1, 2, 7}) {
+            const ThreadLimit limit(threads);
+            std::string later;
+            write_svg(sample.draw(settings, {}, nullptr).drawing, {}, later);
+            EXPECT_TRUE(later == now) << static_cast<int>(style) << ' ' << threads;
+        }
+        EXPECT_GT(now.size(), 3000U);
+    }
 }
 
 TEST(DrawScene, TellsHowFarItIsAndNeverGoesBack) {

@@ -2,6 +2,7 @@
 // What a drawing takes of memory, compared with what is told before, and what is left behind when
 // memory runs out. A program of its own, as it replaces operator new.
 #include "vera/base/available_memory.h"
+#include "vera/base/output_file.h"
 #include "vera/base/parallel.h"
 #include "vera/drawing/drawing_file.h"
 #include "vera/visible/cell_raster.h"
@@ -12,6 +13,7 @@
 #include "vera/visible/projection.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -235,16 +237,20 @@ TEST(DrawingMemory, ADrawingTakesWhatIsForetold) {
         const auto all_there = static_cast<double>(all_watch.bytes());
         ScreenScene whole = on_screen;
         const VisiblePieces pieces = whole_pieces(whole).pieces;
-        for (const DrawingStyle style :
-             {DrawingStyle::flat,
-              DrawingStyle::shaded,
-              DrawingStyle::ids,
-              DrawingStyle::lines,
-              DrawingStyle::hidden_lines,
-              DrawingStyle::toon}) {
+        for (const auto& [style, outlines] :
+             {std::pair(DrawingStyle::flat, FaceOutlines::now),
+              std::pair(DrawingStyle::shaded, FaceOutlines::now),
+              std::pair(DrawingStyle::ids, FaceOutlines::now),
+              std::pair(DrawingStyle::lines, FaceOutlines::now),
+              std::pair(DrawingStyle::hidden_lines, FaceOutlines::now),
+              std::pair(DrawingStyle::toon, FaceOutlines::now),
+              std::pair(DrawingStyle::flat, FaceOutlines::later),
+              std::pair(DrawingStyle::shaded, FaceOutlines::later),
+              std::pair(DrawingStyle::toon, FaceOutlines::later)}) {
+            DrawSettings settings;
+            settings.style = style;
+            settings.outlines = outlines;
             const double taken = most_bytes_of([&] {
-                DrawSettings settings;
-                settings.style = style;
                 const DrawnScene drawn = draw_scene(scene, camera, picture, settings);
                 std::string text;
                 write_svg(drawn.drawing, {}, text);
@@ -256,11 +262,12 @@ TEST(DrawingMemory, ADrawingTakesWhatIsForetold) {
                 curved_part_of(all) * static_cast<double>(counts.surfaces));
             const double told_then = all_there - (forgets_facets ? facets_there : 0)
                 + std::max(raster_bytes(counts_of(on_screen)) + piece_bytes(count),
-                           drawing_bytes(count, counts, style));
+                           drawing_bytes(count, counts, style, outlines));
             const double told = std::max(taken_before, told_then);
             constexpr double few = 0x1p19;
             const std::string what = "scene " + std::to_string(&view - views) + ", style "
-                + std::to_string(static_cast<int>(style));
+                + std::to_string(static_cast<int>(style))
+                + (outlines == FaceOutlines::later ? ", outlines later" : "");
             EXPECT_GE(told, taken - few) << what;
             // Beside what is of another colour, and of smooth faces, there is half of what is
             // foretold.
@@ -302,6 +309,42 @@ TEST(DrawingMemory, ADrawingInIdsHoldsNeitherSceneNorFacetsNorOutlinesAtItsPeak)
     }
 }
 
+TEST(DrawingMemory, ADrawingOfFillsDoesNotHoldItsOutlines) {
+    if (memory_is_watched())
+        GTEST_SKIP() << "a sanitizer takes memory of its own";
+
+    struct Sample {
+        ScreenScene screen;
+        double most = 0;        ///< bytes a triangle
+        double most_shaded = 0; ///< with underlays as the light is
+    };
+
+    const ThreadLimit one(1);
+    PictureSettings picture;
+    picture.width = picture.height = 800;
+    picture.shadows = false;
+    for (const Sample& sample :
+         {Sample{testing::scattered(1, 30'000, screen_size / 100), 850, 1050}, // 6 pieces each
+          Sample{testing::terrain(1, 120), 480, 510},
+          Sample{testing::balls(1, 20, 30), 400, 400}})
+        for (const DrawingStyle style : {DrawingStyle::flat, DrawingStyle::shaded}) {
+            const SceneInView view = in_space(sample.screen);
+            const double taken = most_bytes_of([&] {
+                DrawSettings settings;
+                settings.style = style;
+                settings.outlines = FaceOutlines::later;
+                const DrawnScene drawn = draw_scene(view.scene, view.camera, picture, settings);
+                // Not committed: it leaves no file.
+                OutputFile file(std::filesystem::temp_directory_path() / "drawing_memory_test.svg");
+                write_drawing(drawn.drawing, file, DrawingFormat::svg);
+            });
+            const auto count = static_cast<double>(sample.screen.triangles.size());
+            const bool is_shaded = style == DrawingStyle::shaded;
+            EXPECT_LT(taken, (is_shaded ? sample.most_shaded : sample.most) * count)
+                << count << " triangles";
+        }
+}
+
 std::string refusal(const std::function<void()>& work) {
     try {
         work();
@@ -325,7 +368,9 @@ TEST(DrawingMemory, WhatDoesNotFitIsRefusedBeforeItIsTaken) {
     EXPECT_LT(taken, 1e6);
     EXPECT_THAT(refusal([] { require_piece_memory(1e6); }), HasSubstr("about 1000000 pieces"));
     EXPECT_THAT(
-        refusal([] { require_drawing_memory(1e6, ScreenCounts{}, DrawingStyle::flat); }),
+        refusal([] {
+            require_drawing_memory(1e6, ScreenCounts{}, DrawingStyle::flat, FaceOutlines::now);
+        }),
         HasSubstr("MiB of memory, and 1 MiB are available: a larger --deviation"));
     taken = most_bytes_of([&] {
         EXPECT_THAT(

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/drawing/document_text.h"
 
+#include "vera/base/random.h"
+
 #include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -135,6 +138,17 @@ std::string plain_line(std::string_view utf8) {
     return line;
 }
 
+std::uint64_t hash_of(std::string_view bytes) {
+    std::uint64_t hash = bytes.size();
+    for (std::size_t i = 0; i < bytes.size(); i += sizeof hash) {
+        std::uint64_t word = 0;
+        for (const char byte : bytes.substr(i, sizeof hash))
+            word = word << 8U | static_cast<unsigned char>(byte);
+        hash = scrambled_bits(hash ^ word);
+    }
+    return hash;
+}
+
 std::string UniqueIds::take(std::string_view wanted) {
     std::string id;
     for (const char letter : wanted) {
@@ -146,13 +160,38 @@ std::string UniqueIds::take(std::string_view wanted) {
         id.insert(0, 1, '_');
 
     // From the number on that was given last.
-    std::uint64_t number = taken_[id];
+    std::uint64_t number = last_number_of(id);
     std::string unique = id;
-    while (number > 0 && taken_[unique] > 0)
+    while (number > 0 && last_number_of(unique) > 0)
         unique = id + "-" + std::to_string(++number);
-    taken_[unique] = std::max<std::uint64_t>(taken_[unique], 1);
-    taken_[id] = std::max<std::uint64_t>(number, 1);
+    set_last_number(unique, std::max<std::uint64_t>(last_number_of(unique), 1));
+    set_last_number(id, std::max<std::uint64_t>(number, 1));
     return unique;
+}
+
+std::uint64_t UniqueIds::last_number_of(std::string_view id) const {
+    return taken_[place_of(hash_of(id))].last_number;
+}
+
+void UniqueIds::set_last_number(std::string_view id, std::uint64_t number) {
+    Taken& taken = taken_[place_of(hash_of(id))];
+    const bool is_new = taken.last_number == 0;
+    taken = {hash_of(id), number};
+    if (!is_new || 2 * ++count_ <= taken_.size())
+        return;
+    const std::vector<Taken> before = std::exchange(taken_, std::vector<Taken>(2 * taken_.size()));
+    for (const Taken& one : before)
+        if (one.last_number > 0)
+            taken_[place_of(one.hash)] = one;
+}
+
+/// Where the id of that hash stands, or would.
+std::size_t UniqueIds::place_of(std::uint64_t hash) const {
+    const std::size_t last = taken_.size() - 1; // a power of two less one
+    std::size_t place = hash & last;
+    while (taken_[place].last_number > 0 && taken_[place].hash != hash)
+        place = (place + 1) & last;
+    return place;
 }
 
 } // namespace vera::detail

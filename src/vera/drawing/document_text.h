@@ -2,10 +2,11 @@
 // Strings of the world in the texts of documents.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
-#include <unordered_map>
+#include <vector>
 
 namespace vera::detail {
 
@@ -19,6 +20,9 @@ std::string pdf_string(std::string_view utf8);
 /// The text in printable ASCII on one line of at most 200 characters, with '?' for all else.
 std::string plain_line(std::string_view utf8);
 
+/// Of the bytes: the same on every machine.
+std::uint64_t hash_of(std::string_view bytes);
+
 /// Gives ids that no other element of the document has.
 class UniqueIds {
 public:
@@ -27,8 +31,22 @@ public:
     std::string take(std::string_view wanted);
 
 private:
-    /// The number behind the last one made of each id, 1 for none: 0 where it was never given.
-    std::unordered_map<std::string, std::uint64_t> taken_;
+    /// Of an id that was given or asked for.
+    struct Taken {
+        std::uint64_t hash = 0;
+        std::uint64_t last_number = 0; ///< behind the last one made of it, 1 for none; 0: of no id
+    };
+
+    std::uint64_t last_number_of(std::string_view id) const;
+    void set_last_number(std::string_view id, std::uint64_t number);
+    std::size_t place_of(std::uint64_t hash) const;
+
+    /// By hashes, each at its place or, where that is taken, at one of the next ones (open
+    /// addressing); at most half of them are taken. A drawing has as many ids as faces that are
+    /// seen: they themselves would take five times the memory. Two with one hash would be told
+    /// apart by a number that neither needs.
+    std::vector<Taken> taken_ = std::vector<Taken>(16);
+    std::size_t count_ = 0;
 };
 
 } // namespace vera::detail

@@ -121,17 +121,22 @@ struct SharedAreas {
 FilledOutline outline_of(const SharedAreas& areas, std::size_t number);
 
 /// Outlines that are made when a writer asks for them, some at a time: all of them would take ten
-/// times as much memory as what they are made from. Asked again, both give the same, in the same
-/// order; they throw Cancelled.
+/// times as much memory as what they are made from. Asked again, a block is the same again.
 struct LaterFills {
-    std::size_t blocks = 0; ///< 0: there are none
-    std::function<std::vector<FilledOutline>(std::size_t block, const CancelFlag* cancel)> block = {};
-    /// Those of all blocks that have seams, which must be known before any of them is written.
-    std::function<std::vector<FilledOutline>(const CancelFlag* cancel)> with_seams = {};
+    /// The outlines of the block of that number, in their order. Throws Cancelled.
+    using Block =
+        std::function<std::vector<FilledOutline>(std::size_t number, const CancelFlag* cancel)>;
+
+    std::size_t blocks = 0;     ///< 0: there are none
+    bool have_gradients = true; ///< whether some may have one
+    Block block = {};
+    /// Those of the block that have seams, which must all be known before any of them is written.
+    Block with_seams = {};
 };
 
 /// A vector picture: the background, on it the outlines in their order, on them those that are made
-/// later, on them the areas, on them the lines, one class after the other. Texts are UTF-8; what is not is replaced.
+/// later, on them the areas, on them the lines, one class after the other. Texts are UTF-8; what is
+/// not is replaced.
 struct Drawing {
     double width = 1; ///< in pixels, positive
     double height = 1;

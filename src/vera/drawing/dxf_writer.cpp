@@ -76,7 +76,13 @@ public:
         const CancelFlag* cancel)
         : drawing_(drawing)
         , lattice_(settings.precision)
-        , layers_(layers(drawing, settings, lattice_, LaterOutlines::some_at_a_time, progress_part(progress, 0, 2), cancel))
+        , layers_(layers(
+              drawing,
+              settings,
+              lattice_,
+              LaterOutlines::some_at_a_time,
+              progress_part(progress, 0, 2),
+              cancel))
         , stages_(progress_part(progress, 1, 2), static_cast<double>(1 + layers_.lines.size()))
         , cancel_(cancel)
         , in_millimeters_(settings.page_width_millimeters > 0)

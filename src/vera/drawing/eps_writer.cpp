@@ -19,7 +19,8 @@ void write_eps(
     const CancelFlag* cancel) {
     StageProgress stages(progress, 2);
     const Lattice lattice(settings.precision);
-    const Layers content = layers(drawing, settings, lattice, LaterOutlines::at_once, stages.next(1), cancel);
+    const Layers content =
+        layers(drawing, settings, lattice, LaterOutlines::at_once, stages.next(1), cancel);
     const Gradients gradients(content.fills);
     const PageSize page = page_size(drawing, settings);
     const std::string width = decimal(page.width, 4);

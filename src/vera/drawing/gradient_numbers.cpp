@@ -2,7 +2,7 @@
 #include "vera/drawing/gradient_numbers.h"
 
 #include "vera/base/check.h"
-#include "vera/base/random.h"
+#include "vera/drawing/document_text.h"
 
 #include <algorithm>
 #include <cstring>
@@ -38,16 +38,6 @@ void pack(const Gradient& gradient, std::string& bytes) {
         for (const std::uint8_t component : {stop.color.r, stop.color.g, stop.color.b})
             bytes += static_cast<char>(component);
     }
-}
-
-std::uint64_t hash_of(std::string_view bytes) {
-    std::uint64_t hash = bytes.size();
-    for (std::size_t i = 0; i < bytes.size(); i += sizeof hash) {
-        std::uint64_t word = 0;
-        std::memcpy(&word, bytes.data() + i, std::min(sizeof word, bytes.size() - i));
-        hash = scrambled_bits(hash ^ word);
-    }
-    return hash;
 }
 
 } // namespace

@@ -53,8 +53,8 @@ std::vector<LineLayer> line_layers(
 }
 
 /// Seams of which nothing was drawn back yet.
-FilledPath snapped_fill(
-    const FilledOutline& fill, const DrawingSettings& settings, const Lattice& lattice) {
+FilledPath
+snapped_fill(const FilledOutline& fill, const DrawingSettings& settings, const Lattice& lattice) {
     FilledPath path = {&fill, snapped_rings(fill, lattice), {}};
     if (settings.cover_seams && !path.rings.empty())
         path.seams = joined_seams(fill, lattice);
@@ -92,8 +92,9 @@ Layers layers(
     result.is_filled = !result.fills.empty();
     for (const FilledPath& path : result.fills)
         result.passed.add(path.seams);
-    if (later == LaterOutlines::some_at_a_time && others.blocks > 0 && settings.cover_seams)
-        for (const FilledOutline& outline : others.with_seams(cancel))
+    const bool has_others = later == LaterOutlines::some_at_a_time && settings.cover_seams;
+    for (std::size_t i = 0; has_others && i < others.blocks; ++i)
+        for (const FilledOutline& outline : others.with_seams(i, cancel))
             result.passed.add(snapped_fill(outline, settings, lattice).seams);
     const double width = seam_width(settings, lattice);
     long_parallel_loop(result.fills.size(), stages.next(1), cancel, 256, [&](std::size_t i) {

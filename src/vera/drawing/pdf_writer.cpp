@@ -186,7 +186,8 @@ void write_pdf(
 
     StageProgress stages(progress, 4);
     const Lattice lattice(settings.precision);
-    const Layers drawn = layers(drawing, settings, lattice, LaterOutlines::at_once, stages.next(1), cancel);
+    const Layers drawn =
+        layers(drawing, settings, lattice, LaterOutlines::at_once, stages.next(1), cancel);
     const Gradients gradients(drawn.fills);
     const std::vector<std::string> names = layer_names(drawn);
     const PageSize size = page_size(drawing, settings);

@@ -28,6 +28,9 @@ using namespace detail;
 /// Digits behind the point of lengths that are no coordinates.
 constexpr int length_digits = 4;
 
+/// In one block of memory: where text grows, it is there twice.
+constexpr std::size_t most_text_of_gradients = std::size_t{1} << 18U;
+
 class SvgWriter {
 public:
     /// Into the text or, where there is a file, through it into that.
@@ -68,12 +71,14 @@ public:
     }
 
     void write() {
-        if (drawing_.later_fills.blocks > 0)
+        const LaterFills& later = drawing_.later_fills;
+        if (later.blocks > 0 && later.have_gradients)
             hold_fills();
+        else
+            has_seams_ = has_seams_ || have_later_seams();
         write_head();
         write_style();
-        if (!gradients_text_.empty())
-            text_ += "<defs>\n" + gradients_text_ + "</defs>\n";
+        write_gradients();
         if (drawing_.background)
             text_ += fmt::format(
                 "<rect id=\"{}\" width=\"{}\" height=\"{}\" fill=\"{}\"/>\n",
@@ -81,9 +86,9 @@ public:
                 length(drawing_.width),
                 length(drawing_.height),
                 css_color(*drawing_.background));
-        if (!held_.empty())
-            write_held();
-        else if (layers_.is_filled)
+        if (is_held_)
+            write_parts(held_);
+        else
             write_fills();
         for (std::size_t i = 0; i < layers_.lines.size(); ++i)
             write_lines(layers_.lines[i], line_ids_[i]);
@@ -93,21 +98,35 @@ public:
     }
 
 private:
-    /// The fills of which some are made but now, as text: what they refer to stands before them.
+    /// Whether a seam is left of outlines that are made later: the first that have some tell, as a
+    /// rule.
+    bool have_later_seams() const {
+        const LaterFills& later = drawing_.later_fills;
+        for (std::size_t i = 0; settings_.cover_seams && i < later.blocks; ++i) {
+            const std::vector<FilledOutline> outlines = later.with_seams(i, cancel_);
+            for (const FilledPath& path :
+                 filled_paths(outlines, settings_, lattice_, layers_.passed, cancel_))
+                if (!path.seams.empty())
+                    return true;
+        }
+        return false;
+    }
+
+    /// The fills of which some are made but now, as text: the gradients that they refer to stand
+    /// before them.
     void hold_fills() {
         std::string before = std::exchange(text_, {});
-        is_holding_ = true;
+        is_held_ = is_holding_ = true;
         write_fills();
         pass_on();
         is_holding_ = false;
         text_ = std::move(before);
-        if (!layers_.is_filled)
-            held_.clear();
     }
 
-    void write_held() {
+    /// And forgets each when it is written.
+    void write_parts(std::vector<std::string>& parts) {
         pass_on();
-        for (std::string& part : held_) {
+        for (std::string& part : parts) {
             text_ += part;
             std::string().swap(part);
             pass_on();
@@ -183,12 +202,25 @@ private:
             dashes);
     }
 
+    void write_gradients() {
+        if (gradients_.count() == 0)
+            return;
+        text_ += "<defs>\n";
+        write_parts(held_gradients_);
+        text_ += gradients_text_ + "</defs>\n";
+        std::string().swap(gradients_text_);
+    }
+
     /// Of a gradient, which is written when its first outline comes.
     const std::string& id_of(const Gradient& gradient) {
         const auto [number, is_new] = gradients_.of(gradient);
         if (is_new) {
             gradient_ids_.push_back(ids_.take(fmt::format("g{}", number + 1)));
             write_gradient(gradient, gradient_ids_.back());
+            if (gradients_text_.size() > most_text_of_gradients) {
+                held_gradients_.emplace_back(gradients_text_);
+                gradients_text_.clear();
+            }
         }
         return gradient_ids_[number];
     }
@@ -235,11 +267,10 @@ private:
             gradient_length(gradient.start.y));
     }
 
+    /// Nothing where nothing is filled.
     void write_fills() {
-        text_ += fmt::format(
-            "<g id=\"{}\" inkscape:groupmode=\"layer\" inkscape:label=\"{}\">\n",
-            fills_id_,
-            fills_name);
+        if (layers_.is_filled)
+            begin_fills();
         const Progress progress = stages_.next(1);
         const SharedAreas& areas = drawing_.areas;
         const LaterFills& later = drawing_.later_fills;
@@ -269,10 +300,22 @@ private:
             pass_on();
             first = last;
         }
-        text_ += "</g>\n";
+        if (layers_.is_filled)
+            text_ += "</g>\n";
+    }
+
+    void begin_fills() {
+        text_ += fmt::format(
+            "<g id=\"{}\" inkscape:groupmode=\"layer\" inkscape:label=\"{}\">\n",
+            fills_id_,
+            fills_name);
     }
 
     void write_block(std::span<const FilledPath> fills) {
+        if (!fills.empty() && !layers_.is_filled) {
+            layers_.is_filled = true;
+            begin_fills();
+        }
         const std::vector<FillData> data = fill_data(fills);
         for (std::size_t i = 0; i < fills.size(); ++i) {
             if (!group_ || fills[i].outline->group != *group_) {
@@ -282,7 +325,6 @@ private:
             }
             write_fill(fills[i], data[i]);
             has_seams_ = has_seams_ || !fills[i].seams.empty();
-            layers_.is_filled = true;
         }
         pass_on();
     }
@@ -381,10 +423,12 @@ private:
     std::vector<std::string> line_ids_; ///< of the layers of lines, which are their classes too
     GradientNumbers gradients_;
     std::vector<std::string> gradient_ids_;
-    std::string gradients_text_;
+    std::string gradients_text_;              ///< of the last ones
+    std::vector<std::string> held_gradients_; ///< of those before
     bool has_seams_ = false;
     std::optional<std::string> group_; ///< that the last outline stands in
     bool is_holding_ = false;
+    bool is_held_ = false;
     std::vector<std::string> held_; ///< the fills as text, part by part
 };
 

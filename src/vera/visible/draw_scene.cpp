@@ -2,6 +2,7 @@
 #include "vera/visible/draw_scene.h"
 
 #include "vera/base/diagnostic.h"
+#include "vera/base/free_room.h"
 #include "vera/base/long_loop.h"
 #include "vera/base/progress_part.h"
 #include "vera/visible/drawing_memory.h"
@@ -111,11 +112,11 @@ struct Request {
 
     /// Refuses a drawing that would not fit into memory.
     ExpectPieces expect_pieces(const ScreenScene& screen, double curved_part) const {
-        return [&screen, curved_part, style = settings.style](double pieces) {
+        return [&screen, curved_part, this](double pieces) {
             ScreenCounts counts = counts_of(screen);
             counts.curved =
                 static_cast<std::size_t>(curved_part * static_cast<double>(counts.surfaces));
-            require_drawing_memory(pieces, counts, style);
+            require_drawing_memory(pieces, counts, settings.style, settings.outlines);
         };
     }
 };
@@ -237,7 +238,7 @@ Drawing painted(Request& request, SeenScene& seen, VisibleMap map) {
             numbered_areas(std::move(map), seen.primitives, request.picture, request.cancel);
         return drawing;
     }
-    const auto kept = std::make_shared<const KeptForDrawing>(KeptForDrawing{
+    const auto kept = std::make_shared<KeptForDrawing>(KeptForDrawing{
         request.camera_map, std::move(seen.facets), std::move(seen.faces), std::move(map)});
     const MapSources sources = {
         request.scene,
@@ -264,6 +265,12 @@ Drawing painted(Request& request, SeenScene& seen, VisibleMap map) {
             request.next_stage(request.times.lines),
             request.cancel,
             drawing);
+    free_room(kept->map.vertices);
+    if (settings.style != DrawingStyle::shaded) {
+        kept->facets = {};
+        kept->faces = {};
+    }
+    give_back_freed_memory(); // what was freed in small blocks, before there is the text
     return drawing;
 }
 

@@ -12,14 +12,9 @@
 #include "vera/visible/visibility_engine.h"
 
 #include <cstddef>
-#include <cstdint>
 #include <functional>
 
 namespace vera {
-
-/// When the outlines of faces are made: now, or when the drawing is written (see LaterFills), which
-/// takes a fifth of the memory. What draw_scene() is given must then outlive the drawing.
-enum class FaceOutlines : std::uint8_t { now, later };
 
 struct DrawSettings {
     DrawingStyle style = DrawingStyle::flat;
@@ -32,7 +27,9 @@ struct DrawSettings {
     VisibilityEngine engine = VisibilityEngine::cells; ///< the drawing is the same
     double color_tolerance =
         1.0 / 255; ///< how far the gradients of style shaded may be off the light, 1 for 255
-    FaceOutlines outlines = FaceOutlines::now; ///< the drawing shows the same
+    /// The drawing shows the same. What draw_scene() was given must be there as long as
+    /// outlines may be made.
+    FaceOutlines outlines = FaceOutlines::now;
 };
 
 struct DrawnScene {

@@ -76,13 +76,18 @@ struct StyleBytes {
     double curved_surface = 0;
 };
 
-StyleBytes bytes_of(DrawingStyle style) {
+StyleBytes bytes_of(DrawingStyle style, FaceOutlines outlines) {
+    const bool are_later = outlines == FaceOutlines::later;
     switch (style) {
     case DrawingStyle::flat:
         // Regions of colours that are alike go on below the whole of each other: others take half.
-        return {.piece = 340, .curved_piece = 60, .region = 920, .curved_region = 520};
+        if (are_later)
+            return {.piece = 150, .curved_piece = -90, .region = 670, .curved_region = 140};
+        return {.piece = 160, .curved_piece = 630, .region = 770, .curved_region = 20};
     case DrawingStyle::shaded: // curved ones are smooth faces, or facets
-        return {.piece = 330, .curved_piece = -30, .region = 900, .curved_region = 320};
+        if (are_later)
+            return {.piece = 50, .curved_piece = -30, .region = 1260, .curved_region = 250};
+        return {.piece = 200, .curved_piece = 160, .region = 920, .curved_region = 80};
     case DrawingStyle::ids: // as areas that share their corners
         return {.piece = 75};
     case DrawingStyle::lines:
@@ -90,15 +95,18 @@ StyleBytes bytes_of(DrawingStyle style) {
     case DrawingStyle::hidden_lines: // the edges of smooth ones are none
         return {.piece = 440, .surface = 530, .curved_surface = 150};
     case DrawingStyle::toon:
-        return {.piece = 420, .region = 730, .curved_region = 530, .surface = 70};
+        if (are_later)
+            return {.piece = 280, .region = 600};
+        return {.piece = 430, .region = 730, .curved_region = 540, .surface = 70};
     }
     return {};
 }
 
 } // namespace
 
-double drawing_bytes(double pieces, const ScreenCounts& counts, DrawingStyle style) {
-    const StyleBytes bytes = bytes_of(style);
+double drawing_bytes(
+    double pieces, const ScreenCounts& counts, DrawingStyle style, FaceOutlines outlines) {
+    const StyleBytes bytes = bytes_of(style, outlines);
     const auto surfaces = static_cast<double>(counts.surfaces);
     const auto curved = static_cast<double>(counts.curved);
     const double part = surfaces > 0 ? std::min(curved / surfaces, 1.0) : 0;
@@ -126,12 +134,13 @@ void require_piece_memory(double pieces, double pairs) {
         remedy);
 }
 
-void require_drawing_memory(double pieces, const ScreenCounts& counts, DrawingStyle style) {
+void require_drawing_memory(
+    double pieces, const ScreenCounts& counts, DrawingStyle style, FaceOutlines outlines) {
     // What edges are compared with is there now, and given back before. Its forecast may be half
     // too large.
     const double given_back = raster_bytes(counts) / 1.5;
     require_memory(
-        std::max(piece_bytes(pieces), drawing_bytes(pieces, counts, style) - given_back),
+        std::max(piece_bytes(pieces), drawing_bytes(pieces, counts, style, outlines) - given_back),
         "the drawing would have about " + about(pieces) + " lines between what is seen, which",
         remedy);
 }

@@ -32,7 +32,8 @@ double piece_bytes(double pieces, double pairs = 0);
 
 /// What is made of so many pieces, from the map to the text of the file, in place of what edges
 /// were compared with.
-double drawing_bytes(double pieces, const ScreenCounts& counts, DrawingStyle style);
+double
+drawing_bytes(double pieces, const ScreenCounts& counts, DrawingStyle style, FaceOutlines outlines);
 
 /// Throws std::runtime_error where the memory that is available does not suffice for cell_raster()
 /// of the scene, whatever is seen of it.
@@ -42,7 +43,8 @@ void require_raster_memory(const ScreenScene& scene);
 void require_piece_memory(double pieces, double pairs = 0);
 
 /// The same of the whole drawing, while cell_raster() has what edges are compared with.
-void require_drawing_memory(double pieces, const ScreenCounts& counts, DrawingStyle style);
+void require_drawing_memory(
+    double pieces, const ScreenCounts& counts, DrawingStyle style, FaceOutlines outlines);
 
 /// Looks, while shadows are added to a scene, whether there will be memory to see them.
 class ShadowMemory {

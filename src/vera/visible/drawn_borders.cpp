@@ -131,6 +131,7 @@ private:
     }
 
     void find_curves() {
+        borders_.side_curves.assign(sides_.size(), no_curve);
         parallel_ranges(sides_.size(), 1024, [&](std::size_t first, std::size_t last) {
             stop_if_raised(cancel_);
             for (std::size_t i = first; i < last; ++i)
@@ -342,7 +343,6 @@ DrawnBorders straight_borders(const VisibleMap& map, const PictureSettings& pict
     borders.places.reserve(map.vertices.size());
     for (const PackedPoint& vertex : map.vertices)
         borders.places.push_back(in_pixels(picture, vertex));
-    borders.side_curves.assign(map.ring_vertices.size(), no_curve);
     return borders;
 }
 

@@ -15,13 +15,14 @@ namespace vera {
 
 /// Where the borders of a map's regions are drawn.
 struct DrawnBorders {
-    std::vector<DrawingPoint> places;       ///< of the map's vertices
-    std::vector<std::uint32_t> side_curves; ///< of the sides that begin with each ring_vertices[i]
+    std::vector<DrawingPoint> places; ///< of the map's vertices
+    /// Of the sides that begin with each ring_vertices[i]; or empty: all are straight.
+    std::vector<std::uint32_t> side_curves;
     BorderCurves curves;
 
     /// Number i of the map's ring_vertices and what leads on from it; no node.
     BorderPoint point(const VisibleMap& map, std::size_t i) const {
-        return {places[map.ring_vertices[i]], side_curves[i]};
+        return {places[map.ring_vertices[i]], side_curves.empty() ? no_curve : side_curves[i]};
     }
 
     BorderRing ring(const VisibleMap& map, const VisibleMap::Ring& ring) const;

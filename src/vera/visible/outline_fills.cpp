@@ -67,6 +67,9 @@ public:
             start_shaded(stages, cancel, drawing);
         else
             start_flat(stages, cancel, drawing);
+        primitives_.reserve(regions_.count());
+        for (std::size_t i = 0; i < regions_.count(); ++i)
+            primitives_.push_back(sources.facets.triangles[facet_of(i)].primitive);
         find_seams(stages.next(1), cancel);
         stages.next(0);
     }
@@ -81,8 +84,13 @@ public:
         return outlines_of(numbers, cancel);
     }
 
-    std::vector<FilledOutline> with_seams(const CancelFlag* cancel) const {
-        return outlines_of(with_seams_, cancel);
+    /// Those of the block that have seams.
+    std::vector<FilledOutline> with_seams(std::size_t number, const CancelFlag* cancel) const {
+        const auto place_of = [&](std::size_t region) {
+            return std::lower_bound(with_seams_.begin(), with_seams_.end(), region);
+        };
+        return outlines_of(
+            {place_of(number * block_size), place_of((number + 1) * block_size)}, cancel);
     }
 
 private:
@@ -149,8 +157,7 @@ private:
             const std::uint32_t number = numbers[i];
             PaintedRegion region = named(number);
             cover_seams_closely(regions_, number, region);
-            lit[i] = {
-                std::move(region), facet_of(number), ~sources_.map.regions[number].unlit};
+            lit[i] = {std::move(region), facet_of(number), ~sources_.map.regions[number].unlit};
         });
         return shaded_outlines(
             std::move(lit),
@@ -166,7 +173,7 @@ private:
 
     /// The region with its rings, and the id and group of what it shows.
     PaintedRegion named(std::size_t number) const {
-        const std::uint64_t primitive = sources_.facets.triangles[facet_of(number)].primitive;
+        const std::uint64_t primitive = primitives_[number];
         PaintedRegion region;
         region.rings = regions_.borders(number);
         region.outline.id = "face-" + std::to_string(primitive + 1);
@@ -177,8 +184,9 @@ private:
     std::shared_ptr<const void> kept_; ///< what the sources refer to, where nobody else keeps it
     FillSources sources_;
     RegionOutlines regions_;
-    std::vector<float> widths_;              ///< of the regions; of areas in one colour each
-    std::vector<DrawingColor> colors_;       ///< likewise
+    std::vector<std::uint64_t> primitives_; ///< of the regions
+    std::vector<float> widths_;             ///< of the regions; of areas in one colour each
+    std::vector<DrawingColor> colors_;      ///< likewise
     std::vector<std::uint32_t> with_seams_; ///< regions
 };
 
@@ -191,13 +199,15 @@ void add_later_fills(
     const CancelFlag* cancel,
     Drawing& drawing) {
     drawing.background = background_color(sources);
-    const auto fills =
-        std::make_shared<const RegionFills>(
-            sources, std::move(kept), StageProgress(progress, 10), cancel, drawing);
+    const auto fills = std::make_shared<const RegionFills>(
+        sources, std::move(kept), StageProgress(progress, 10), cancel, drawing);
     drawing.later_fills = {
         fills->blocks(),
+        sources.style == DrawingStyle::shaded,
         [fills](std::size_t block, const CancelFlag* flag) { return fills->block(block, flag); },
-        [fills](const CancelFlag* flag) { return fills->with_seams(flag); }};
+        [fills](std::size_t block, const CancelFlag* flag) {
+            return fills->with_seams(block, flag);
+        }};
 }
 
 void add_fills(

@@ -20,7 +20,8 @@ void add_fills(
 
 /// The same, but for the faces themselves, which drawing.later_fills makes from the sources when
 /// they are asked for. It keeps `kept`; all that the sources refer to must be part of that, or
-/// outlive the drawing.
+/// outlive the drawing. Later nothing is asked of the map's vertices and, but in style shaded, of
+/// the facets and the faces.
 void add_later_fills(
     const FillSources& sources,
     std::shared_ptr<const void> kept,

@@ -12,8 +12,8 @@ namespace vera {
 
 /// Regions narrower than a pixel, and places where several meet in one, let through what lies
 /// behind all of them: of each, what smooths edges leaves. So what hangs together of three regions
-/// and more is painted as a whole before all faces, roughly as the light in their middles is. Throws
-/// Cancelled.
+/// and more is painted as a whole before all faces, roughly as the light in their middles is.
+/// Throws Cancelled.
 std::vector<FilledOutline> shaded_underlays(
     const FillSources& sources,
     const RegionOutlines& regions,

@@ -52,8 +52,8 @@ void go_on_closely(
     std::ranges::move(strips, std::back_inserter(region.below));
 }
 
-/// Whether is(what is seen across) of a part of the region's border beyond which one that is painted
-/// later lies.
+/// Whether is(what is seen across) of a part of the region's border beyond which one that is
+/// painted later lies.
 template <typename Is>
 bool is_any_later(const RegionOutlines& regions, std::size_t number, const Is& is) {
     for (const VisibleMap::Ring& ring : regions.rings(number))
@@ -69,8 +69,7 @@ bool can_have_strips(const RegionOutlines& regions, std::uint32_t across) {
 }
 
 /// Whether a region may go on below the whole of that one.
-bool is_small(
-    const RegionOutlines& regions, std::span<const float> widths, std::uint32_t across) {
+bool is_small(const RegionOutlines& regions, std::span<const float> widths, std::uint32_t across) {
     constexpr std::size_t few = 16;
     constexpr float narrow = 2; // pixels: where strips of one come near the other side
     return regions.corner_count(across) <= few || widths[across] < narrow;
@@ -130,8 +129,7 @@ void cover_seams(
                 region.outline.seams.emplace_back(border.begin(), border.end());
             else
                 go_on_closely(regions, border, across, region);
-        } else if (
-            !are_alike(colors[number], colors[across]) && can_have_strips(regions, across)) {
+        } else if (!are_alike(colors[number], colors[across]) && can_have_strips(regions, across)) {
             go_on_closely(regions, border, across, region);
         } else if (std::find(below.begin(), below.end(), across) == below.end()) {
             below.push_back(across);
@@ -159,9 +157,8 @@ void cover_seams_closely(const RegionOutlines& regions, std::size_t number, Pain
 }
 
 bool has_seams_closely(const RegionOutlines& regions, std::size_t number) {
-    return is_any_later(regions, number, [&](std::uint32_t across) {
-        return !can_have_strips(regions, across);
-    });
+    return is_any_later(
+        regions, number, [&](std::uint32_t across) { return !can_have_strips(regions, across); });
 }
 
 } // namespace vera
