@@ -112,7 +112,7 @@ TEST(DrawScene, OutlinesThatAreMadeWhileTheyAreWrittenAreTheSame) {
         std::string now;
         write_svg(sample.draw(settings, {}, nullptr).drawing, {}, now);
         settings.outlines = FaceOutlines::later;
-        for (const std::size_t threads : {1, 2, 7}) {
+        for (const std::size_t threads : {1U, 2U, 7U}) {
             const ThreadLimit limit(threads);
             std::string later;
             write_svg(sample.draw(settings, {}, nullptr).drawing, {}, later);

@@ -214,7 +214,7 @@ void expect_common_curves(
         for (std::size_t i = 0; i < ring.count; ++i) {
             const std::size_t place = ring.first + i;
             const std::uint32_t to = map.ring_vertices[ring.first + (i + 1) % ring.count];
-            const std::uint32_t curve = drawn.curved.side_curves[place];
+            const std::uint32_t curve = drawn.curved.point(map, place).curve;
             curves[{map.ring_vertices[place], to, ring.region, map.ring_across[place]}] = curve;
             if (curve != no_curve)
                 used.insert(curve);

@@ -44,7 +44,9 @@ std::vector<std::uint64_t> primitives_of(const Facets& facets, const DrawnFaces&
     return primitives;
 }
 
-bool has_shadows(const PictureSettings& picture, const DrawSettings& settings) {
+bool has_shadows(const Scene& scene, const PictureSettings& picture, const DrawSettings& settings) {
+    if (scene.lights.empty())
+        return false;
     return has_fills(settings.style) ? picture.shadows && settings.style != DrawingStyle::ids
                                      : settings.shadow_lines;
 }
@@ -77,7 +79,7 @@ struct StageTimes {
 StageTimes
 stage_times(const Scene& scene, const PictureSettings& picture, const DrawSettings& settings) {
     StageTimes times;
-    if (has_shadows(picture, settings)) {
+    if (has_shadows(scene, picture, settings)) {
         times.shadows =
             static_cast<double>(std::min<std::size_t>(scene.lights.size(), most_lights_of_a_set));
         times.seeing_shadows = 1;
@@ -304,7 +306,7 @@ DrawnScene drawn_scene(Request request) {
     drawn.cut_nearness = seen.screen.cut_nearness;
     drawn.cut_rounds = static_cast<std::size_t>(seen.whole.rounds - 1);
     drawn.penetrating = seen.whole.left;
-    if (has_shadows(request.picture, settings)) {
+    if (has_shadows(request.scene, request.picture, settings)) {
         drawn.shadows = see_shadows(request, seen);
         drawn.lights_without_shadows = lights - std::min<std::size_t>(lights, most_lights_of_a_set);
     }
