@@ -182,12 +182,13 @@ void expect_surfaces(
     ASSERT_EQ(block.lanes, (BlockLanes{1} << met.size()) - 1);
     for (std::size_t lane = 0; lane < met.size(); ++lane) {
         const SurfacePoint expected = surface_at(scene, rays[lane], hits[lane]);
-        ASSERT_EQ(materials[lane], expected.material);
-        expect_same(vector_at(block.point, lane), expected.point, "point");
-        ASSERT_TRUE(same_bits(block.point_error[lane], expected.point_error));
-        expect_same(
-            vector_at(block.geometric_normal, lane), expected.geometric_normal, "face's normal");
-        expect_same(vector_at(block.normal, lane), expected.shading_normal, "shading normal");
+        const SurfacePoint found = surface_in(block, lane, materials[lane], hits[lane].face);
+        ASSERT_EQ(found.material, expected.material);
+        ASSERT_EQ(found.face, expected.face);
+        expect_same(found.point, expected.point, "point");
+        ASSERT_TRUE(same_bits(found.point_error, expected.point_error));
+        expect_same(found.geometric_normal, expected.geometric_normal, "face's normal");
+        expect_same(found.shading_normal, expected.shading_normal, "shading normal");
         expect_same(vector_at(block.to_viewer, lane), -rays[lane].direction, "to the viewer");
     }
 }

@@ -67,9 +67,22 @@ void GenerationTracer::nearest(std::span<const QueryRay> rays, std::span<Hit> hi
 void GenerationTracer::surfaces(
     std::span<const QueryRay> rays, std::span<const Hit> hits, std::span<SurfacePoint> at) {
     for_each_range(rays.size(), rays_of_range, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i)
-            if (hits[i].found())
-                at[i] = surface_at(traced_.scene, rays[i].ray, hits[i]);
+        PlaceBlock block;
+        std::array<MetFace, block_size> met;
+        std::array<SurfacePoint*, block_size> places;
+        for (std::size_t i = first; i < last;) {
+            std::size_t count = 0;
+            for (; i < last && count < block_size; ++i) {
+                if (!hits[i].found())
+                    continue;
+                met[count] = {&rays[i].ray, &hits[i]};
+                places[count++] = &at[i];
+            }
+            const std::array<MaterialId, block_size> materials =
+                put_surfaces(traced_.scene, std::span(met).first(count), block);
+            for (std::size_t lane = 0; lane < count; ++lane)
+                *places[lane] = surface_in(block, lane, materials[lane], met[lane].hit->face);
+        }
     });
 }
 

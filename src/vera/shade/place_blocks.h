@@ -111,6 +111,18 @@ put_surface(PlaceBlock& block, std::size_t lane, const SurfacePoint& surface, Ve
     put(block.geometric_normal, lane, surface.geometric_normal);
 }
 
+/// What was put into the lane, of that material and face.
+inline SurfacePoint
+surface_in(const PlaceBlock& block, std::size_t lane, MaterialId material, FaceId face) {
+    return {
+        vector_at(block.point, lane),
+        block.point_error[lane],
+        vector_at(block.geometric_normal, lane),
+        vector_at(block.normal, lane),
+        material,
+        face};
+}
+
 inline void put_material(PlaceBlock& block, std::size_t lane, const Material& material) {
     put(block.drf, lane, material.drf);
     put(block.arf, lane, material.arf);
