@@ -131,9 +131,9 @@ def peers_table(results):
 
 
 def errors_table(results):
-    rows = [[f"{row['scene']}, {row['side']}", str(row["samples"]), *(f"{row[program][i]:.2f}" for i in range(3) for program in ("vera", "povray"))]
+    rows = [[f"{row['scene']}, {row['side']}", str(row["samples"]), f"{row['tolerance']}/255", *(f"{row[program][i]:.2f}" for i in range(3) for program in ("vera", "povray"))]
             for row in (results.errors["rows"] if results.errors else [])]
-    head = ["of 255", "`--samples`", "mean", "POV-Ray", "root mean square", "POV-Ray", "% of pixels over 8", "POV-Ray"]
+    head = ["of 255", "`--samples`", "`--tolerance`", "mean", "POV-Ray", "root mean square", "POV-Ray", "% of pixels over 8", "POV-Ray"]
     return table(head, rows) if rows else None
 
 
