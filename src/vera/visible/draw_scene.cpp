@@ -141,7 +141,7 @@ SeenScene seen_scene(Request& request) {
     const PictureSettings& picture = request.picture;
     request.next_stage(request.times.facets);
     SeenScene seen;
-    const bool throws_shadows = has_shadows(picture, request.settings);
+    const bool throws_shadows = has_shadows(request.scene, picture, request.settings);
     const Deviation deviation = deviation_in_pixels(
         request.camera_map,
         picture.width,
