@@ -95,7 +95,7 @@ TEST(LiveRays, AreCountedInEachNode) {
         }
         std::size_t nodes = 0;
         for (std::uint32_t ray = 0; ray < rays.size(); ++ray)
-            trees.for_each_node_of(ray, [&](RayNode node) {
+            trees.for_each_node_of(ray, [&](RayTreeNode node) {
                 const auto held = node.rays();
                 ASSERT_EQ(std::count(held.begin(), held.end(), ray), 1);
                 ASSERT_EQ(
@@ -117,15 +117,15 @@ struct NotedRays {
     std::vector<int>& times;
     std::vector<std::string>& told;
 
-    bool enters(RayNode /*node*/) const { return true; }
+    bool enters(RayTreeNode /*node*/) const { return true; }
 
-    void met(RayNode node) const { note(node, "met"); }
+    void met(RayTreeNode node) const { note(node, "met"); }
 
-    void open_in_y(RayNode node) const { note(node, "open in y"); }
+    void open_in_y(RayTreeNode node) const { note(node, "open in y"); }
 
-    void open(RayNode node) const { note(node, "open"); }
+    void open(RayTreeNode node) const { note(node, "open"); }
 
-    void note(RayNode node, const char* what) const {
+    void note(RayTreeNode node, const char* what) const {
         for (const std::uint32_t ray : node.rays()) {
             ++times[ray];
             told[ray] = what;
@@ -163,13 +163,13 @@ TEST(RayTrees, LeaveToAVisitorWhatHappensAtTheirEnds) {
 struct CountedSteps {
     StepCounts& counts;
 
-    bool enters(RayNode /*node*/) const { return true; }
+    bool enters(RayTreeNode /*node*/) const { return true; }
 
-    void met(RayNode /*node*/) const {}
+    void met(RayTreeNode /*node*/) const {}
 
-    void open_in_y(RayNode node) const { counts.points += node.rays().size(); }
+    void open_in_y(RayTreeNode node) const { counts.points += node.rays().size(); }
 
-    void open(RayNode node) const { counts.points += node.rays().size(); }
+    void open(RayTreeNode node) const { counts.points += node.rays().size(); }
 };
 
 /// How the steps of so many rectangles, but for telling the rays, grow with the number of these.

@@ -13,6 +13,7 @@
 #include <memory>
 #include <optional>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "accel/random_scene.h"
@@ -336,7 +337,12 @@ INSTANTIATE_TEST_SUITE_P(
         HorizonProfile({{-30, -70}, {90, -80}, {210, -60}}),
         HorizonProfile(
             {{-90, 10}, {-45, -30}, {-20, 45}, {0, 0}, {10, 60}, {45, -20}, {100, 70}, {180, 0}}),
-        HorizonProfile(Mountains{3, 25, 0.8})));
+        HorizonProfile(Mountains{3, 25, 0.8})),
+    [](const auto& profile) {
+        constexpr const char* names[] = {
+            "None", "Flat", "Peaks", "Gorges", "PeaksAndGorges", "Mountains"};
+        return std::string(names[profile.index]);
+    });
 
 TEST(DrawnFirmament, IsTheBackgroundAloneWhereItIsOfOneColor) {
     PictureSettings picture;

@@ -18,7 +18,7 @@ namespace {
 using Numbers = std::vector<std::uint32_t>;
 
 /// Whether what decides at the node is y alone: it is one of an inner tree.
-bool is_inner(RayNode node) {
+bool is_inner(RayTreeNode node) {
     return node.of->first_node != 0;
 }
 
@@ -35,7 +35,7 @@ IsoRectangle flattened(const IsoRectangle& rectangle) {
 class NodeSweep {
 public:
     NodeSweep(
-        RayNode node,
+        RayTreeNode node,
         const RayTrees& trees,
         const LiveRays& live,
         std::int32_t z,
@@ -109,7 +109,7 @@ public:
     void end(std::uint32_t ray) {
         if (live_.is_live(ray))
             live_.remove(ray, counts_.trees);
-        trees_.for_each_node_of(ray, [&](RayNode node) {
+        trees_.for_each_node_of(ray, [&](RayTreeNode node) {
             if (NodeSweep* const sweep = sweeps_[node.number()].get())
                 sweep->remove(ray);
         });
@@ -125,21 +125,21 @@ private:
         const IsoRectangle& rectangle;
         Numbers& found;
 
-        bool enters(RayNode node) const { return sweeps.live_.count_in(node) > 0; }
+        bool enters(RayTreeNode node) const { return sweeps.live_.count_in(node) > 0; }
 
         /// What a tree tells; sweeps count themselves what they do.
-        void met(RayNode node) const {
+        void met(RayTreeNode node) const {
             const std::size_t before = found.size();
             sweeps.live_.append_of(node, found, sweeps.counts_.trees);
             sweeps.counts_.trees.reports += found.size() - before;
         }
 
-        void open_in_y(RayNode node) const { sweeps.ask(node, rectangle, found); }
+        void open_in_y(RayTreeNode node) const { sweeps.ask(node, rectangle, found); }
 
-        void open(RayNode node) const { sweeps.ask(node, rectangle, found); }
+        void open(RayTreeNode node) const { sweeps.ask(node, rectangle, found); }
     };
 
-    void ask(RayNode node, const IsoRectangle& rectangle, Numbers& met) {
+    void ask(RayTreeNode node, const IsoRectangle& rectangle, Numbers& met) {
         std::unique_ptr<NodeSweep>& sweep = sweeps_[node.number()];
         if (!sweep)
             sweep = std::make_unique<NodeSweep>(

@@ -63,13 +63,13 @@ IsoRectangle rectangle_before_mirror(std::mt19937_64& random) {
 struct StepsAlone {
     StepCounts& counts;
 
-    bool enters(RayNode /*node*/) const { return true; }
+    bool enters(RayTreeNode /*node*/) const { return true; }
 
-    void met(RayNode /*node*/) const {}
+    void met(RayTreeNode /*node*/) const {}
 
-    void open_in_y(RayNode node) const { counts.points += node.rays().size(); }
+    void open_in_y(RayTreeNode node) const { counts.points += node.rays().size(); }
 
-    void open(RayNode node) const { counts.points += node.rays().size(); }
+    void open(RayTreeNode node) const { counts.points += node.rays().size(); }
 };
 
 using MadeRays = std::vector<SlopedRay> (*)(std::size_t count, std::mt19937_64& random);

@@ -123,16 +123,16 @@ struct EveryRay {
     Numbers& found;
     StepCounts& counts;
 
-    bool enters(RayNode /*node*/) const { return true; }
+    bool enters(RayTreeNode /*node*/) const { return true; }
 
-    void met(RayNode node) const { look_at_each(node); }
+    void met(RayTreeNode node) const { look_at_each(node); }
 
-    void open_in_y(RayNode node) const { look_at_each(node); }
+    void open_in_y(RayTreeNode node) const { look_at_each(node); }
 
-    void open(RayNode node) const { look_at_each(node); }
+    void open(RayTreeNode node) const { look_at_each(node); }
 
     /// Also where all lines are met: a ray may begin behind the rectangle.
-    void look_at_each(RayNode node) const {
+    void look_at_each(RayTreeNode node) const {
         counts.points += node.rays().size();
         for (const std::uint32_t ray : node.rays())
             if (meets(trees.rays()[ray], rectangle))
@@ -149,25 +149,25 @@ struct EveryLiveRay {
     Numbers& found;
     StepCounts& counts;
 
-    bool enters(RayNode node) const {
+    bool enters(RayTreeNode node) const {
         ++counts.counters;
         return live.count_in(node) > 0;
     }
 
-    void met(RayNode node) const { live.append_of(node, found, counts); }
+    void met(RayTreeNode node) const { live.append_of(node, found, counts); }
 
-    void open_in_y(RayNode node) const {
+    void open_in_y(RayTreeNode node) const {
         look_at_each(node, [&](const SlopedRay& ray) { return contains(y, y_point(ray)); });
     }
 
-    void open(RayNode node) const {
+    void open(RayTreeNode node) const {
         look_at_each(node, [&](const SlopedRay& ray) {
             return contains(x, x_point(ray)) && contains(y, y_point(ray));
         });
     }
 
     template <typename IsMet>
-    void look_at_each(RayNode node, const IsMet& is_met) const {
+    void look_at_each(RayTreeNode node, const IsMet& is_met) const {
         counts.points += node.rays().size();
         for (const std::uint32_t ray : node.rays())
             if (live.is_live(ray) && is_met(trees.rays()[ray]))
@@ -233,7 +233,7 @@ void LiveRays::add(std::uint32_t ray, StepCounts& counts) {
     VERA_CHECK(!is_live(ray));
     live_[ray] = 1;
     ++count_;
-    trees_.for_each_node_of(ray, [&](RayNode node) {
+    trees_.for_each_node_of(ray, [&](RayTreeNode node) {
         ++counts.counters;
         ++counts_[node.number()];
     });
@@ -243,13 +243,13 @@ void LiveRays::remove(std::uint32_t ray, StepCounts& counts) {
     VERA_CHECK(is_live(ray));
     live_[ray] = 0;
     --count_;
-    trees_.for_each_node_of(ray, [&](RayNode node) {
+    trees_.for_each_node_of(ray, [&](RayTreeNode node) {
         ++counts.counters;
         --counts_[node.number()];
     });
 }
 
-void LiveRays::append_of(RayNode node, Numbers& rays, StepCounts& counts) const {
+void LiveRays::append_of(RayTreeNode node, Numbers& rays, StepCounts& counts) const {
     ++counts.counters;
     if (count_in(node) == 0)
         return;

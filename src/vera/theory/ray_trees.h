@@ -41,7 +41,7 @@ struct RayPointTree {
 };
 
 /// A node of one of the trees.
-struct RayNode {
+struct RayTreeNode {
     const RayPointTree* of = nullptr;
     std::uint32_t index = 0; ///< in its tree
 
@@ -93,7 +93,7 @@ public:
     template <typename Use>
     void for_each_node_of(std::uint32_t ray, const Use& use) const {
         const std::uint32_t place = outer_.places[ray];
-        walk(outer_, place, [&](RayNode node) {
+        walk(outer_, place, [&](RayTreeNode node) {
             use(node);
             if (const RayPointTree* inner = outer_.inner[node.index].get())
                 walk(*inner, inner->places[place - node.node().first], use);
@@ -121,7 +121,7 @@ private:
 
     template <typename Visitor>
     void visit_outer(
-        const Strips& strips, RayNode node, StepCounts& counts, const Visitor& visitor) const {
+        const Strips& strips, RayTreeNode node, StepCounts& counts, const Visitor& visitor) const {
         if (!visitor.enters(node))
             return;
         const PartitionNode& held = node.node();
@@ -146,7 +146,10 @@ private:
 
     template <typename Visitor>
     void visit_inner(
-        const PlaneStrip& strip, RayNode node, StepCounts& counts, const Visitor& visitor) const {
+        const PlaneStrip& strip,
+        RayTreeNode node,
+        StepCounts& counts,
+        const Visitor& visitor) const {
         if (!visitor.enters(node))
             return;
         const PartitionNode& held = node.node();
@@ -166,7 +169,7 @@ private:
     static void walk(const RayPointTree& tree, std::uint32_t place, const Use& use) {
         std::uint32_t index = 0;
         for (;;) {
-            use(RayNode{&tree, index});
+            use(RayTreeNode{&tree, index});
             const PartitionNode& node = tree.tree.nodes()[index];
             if (node.is_leaf())
                 return;
@@ -198,12 +201,12 @@ public:
 
     std::size_t count() const { return count_; }
 
-    std::uint32_t count_in(RayNode node) const { return counts_[node.number()]; }
+    std::uint32_t count_in(RayTreeNode node) const { return counts_[node.number()]; }
 
     bool is_live(std::uint32_t ray) const { return live_[ray] != 0; }
 
     /// Appends the live ones of the node's rays: O(log m) each.
-    void append_of(RayNode node, std::vector<std::uint32_t>& rays, StepCounts& counts) const;
+    void append_of(RayTreeNode node, std::vector<std::uint32_t>& rays, StepCounts& counts) const;
 
     /// Appends the live rays whose lines the rectangle meets, in no order that matters. The
     /// rectangle must be as require_rectangles() has it.
