@@ -326,6 +326,12 @@ TEST_P(ShapedFirmament, IsWithinTheToleranceAboveTheHorizonAndBelow) {
     EXPECT_LT(earth, 4780);
 }
 
+std::string profile_name(const ::testing::TestParamInfo<ShapedFirmament::ParamType>& profile) {
+    constexpr const char* names[] = {
+        "None", "Flat", "Peaks", "Gorges", "PeaksAndGorges", "Mountains"};
+    return names[profile.index];
+}
+
 // Also steep peaks and gorges, which are seen from below and from above all round.
 INSTANTIATE_TEST_SUITE_P(
     Profiles,
@@ -338,11 +344,7 @@ INSTANTIATE_TEST_SUITE_P(
         HorizonProfile(
             {{-90, 10}, {-45, -30}, {-20, 45}, {0, 0}, {10, 60}, {45, -20}, {100, 70}, {180, 0}}),
         HorizonProfile(Mountains{3, 25, 0.8})),
-    [](const auto& profile) {
-        constexpr const char* names[] = {
-            "None", "Flat", "Peaks", "Gorges", "PeaksAndGorges", "Mountains"};
-        return std::string(names[profile.index]);
-    });
+    profile_name);
 
 TEST(DrawnFirmament, IsTheBackgroundAloneWhereItIsOfOneColor) {
     PictureSettings picture;
