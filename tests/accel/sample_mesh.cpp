@@ -358,10 +358,26 @@ std::vector<MeshRay> rays_of_lights(std::uint64_t seed, const SampleMesh& mesh, 
         const MeshPoint direction = direction_by(dice, mesh, light);
         const bool to_place = dice.one_in(2);
         const float spread = dice.any_of({0, 0, 0x1p-20F, 0.01F, 0.1F});
-        const float t_max = dice.any_of({1, 1, 0.5F, infinity});
+        const float t_max = dice.any_of({1, 1, 0.5F, 1e6F, 0x1p100F, infinity});
+        // Those of one light from a few places, or from a square about each of a few.
+        const bool from_squares = dice.one_in(2);
+        const float patch = dice.any_of({0, 0x1p-20F, 0.001F, 0.01F});
+        MeshPoint corner = {};
+        MeshPoint right = {};
+        MeshPoint down = {};
         for (std::size_t i = 0; i < rays_of_light; ++i) {
             MeshRay ray;
-            ray.origin = place_by(dice, mesh);
+            if (from_squares) {
+                if (i % 16 == 0) {
+                    corner = place_by(dice, mesh);
+                    right = patch * direction_by(dice, mesh, corner);
+                    down = patch * direction_by(dice, mesh, corner);
+                }
+                ray.origin = corner + static_cast<float>(i % 4) * right
+                    + static_cast<float>(i / 4 % 4) * down;
+            } else {
+                ray.origin = place_by(dice, mesh);
+            }
             ray.direction = (to_place ? light - ray.origin : direction)
                 + spread * direction_by(dice, mesh, ray.origin);
             ray.t_max = t_max;

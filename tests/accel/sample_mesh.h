@@ -58,8 +58,8 @@ random_mesh_rays(std::uint64_t seed, const SampleMesh& mesh, std::size_t count);
 std::vector<MeshRay>
 coherent_mesh_rays(std::uint64_t seed, const SampleMesh& mesh, std::size_t count);
 
-/// Rays from all places of which each 96 run to one place, or in one direction, or nearly: those of
-/// one light.
+/// Rays of which each 96 run to one place, or in one direction, or nearly: those of one light. They
+/// start at all places, or each 16 in a small square.
 std::vector<MeshRay> rays_of_lights(std::uint64_t seed, const SampleMesh& mesh, std::size_t count);
 
 /// Copies of a ray that begin and end before, at and behind the t.

@@ -77,6 +77,15 @@ HWY_INLINE hn::Vec<D> dot_in_order(const Vector<hn::Vec<D>>& a, const Vector<hn:
     return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
 }
 
+template <typename D>
+HWY_INLINE Vector<hn::Vec<D>>
+cross_in_order(const Vector<hn::Vec<D>>& a, const Vector<hn::Vec<D>>& b, D) {
+    return {
+        hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)),
+        hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
+        hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
+}
+
 /// How rays meet elements.
 template <typename D>
 struct FloatMeeting {

@@ -73,6 +73,45 @@ HWY_INLINE void gather(const Search<Tree>& search, RayGroup& group, Gathered<Tre
     }
 }
 
+/// Shafts, octant by octant, and how many there are.
+struct GatheredShafts {
+    std::array<std::array<RayShaft*, most_groups>, octant_count> of_octant;
+    std::array<std::size_t, octant_count> counts = {};
+    std::size_t count = 0;
+};
+
+/// Makes a shaft of the group's rays, if they run alike.
+template <typename Tree>
+HWY_INLINE bool
+gather_shaft(const Search<Tree>& search, RayGroup& group, GatheredShafts& gathered) {
+    RayShaft& shaft = search.space.shafts[gathered.count];
+    std::size_t octant = 0;
+    if (std::popcount(group.followed) <= few_rays || not_followed(group) != 0
+        || !start_shaft(group, shaft, octant))
+        return false;
+    shaft.singles = &search.space.singles[first_ray(search, group)];
+    ++gathered.count;
+    gathered.of_octant[octant][gathered.counts[octant]++] = &shaft;
+    return true;
+}
+
+/// Follows all shafts.
+template <typename Tree>
+HWY_INLINE void follow_gathered(const Search<Tree>& search, GatheredShafts& gathered) {
+    std::size_t streams = 0;
+    for (std::size_t octant = 0; octant < octant_count; ++octant)
+        for (std::size_t i = 0; i < gathered.counts[octant]; i += shafts_in_stream)
+            start_stream(
+                search,
+                streams++,
+                std::span<RayShaft* const>(
+                    &gathered.of_octant[octant][i],
+                    std::min(shafts_in_stream, gathered.counts[octant] - i)),
+                octant);
+    if (streams > 0)
+        follow_streams<true>(search, search.space.shaft_streams.data(), streams);
+}
+
 /// Makes a stream of the rays of a beam, which goes on where the beam is.
 template <typename Tree>
 HWY_NOINLINE void
@@ -108,7 +147,7 @@ HWY_INLINE void follow_gathered(const Search<Tree>& search, Gathered<Tree>& gath
             stream.stack.push(TreeChild::node(0), stream.left);
         }
     if (gathered.streams > 0)
-        follow_streams<any>(search, gathered.streams);
+        follow_streams<any>(search, search.space.streams.data(), gathered.streams);
 }
 
 /// Up to rays_at_once rays through the tree; returns in how many groups.
@@ -149,14 +188,20 @@ template <typename Tree>
 HWY_INLINE std::size_t follow_to_any(const Search<Tree>& search, std::span<const IndexRay> rays) {
     std::size_t groups = 0;
     Gathered<Tree> gathered;
+    GatheredShafts shafts;
     for (std::size_t first = 0; first < rays.size(); first += group_size) {
         RayGroup& group = search.space.groups[groups++];
         fetch_rays(rays, first + group_size);
         start_group(
             search.tree, rays.subspan(first, std::min(group_size, rays.size() - first)), group);
         add_rows(search, group);
+        if constexpr (Tree::shafts)
+            if (gather_shaft(search, group, shafts))
+                continue;
         gather(search, group, gathered);
     }
+    if constexpr (Tree::shafts)
+        follow_gathered(search, shafts);
     follow_gathered<true>(search, gathered);
     return groups;
 }

@@ -42,7 +42,8 @@ struct FloatScale {
 /// What there is of each kind of element, of which the Tree is derived from this: `Tree::Hit`, what
 /// is told of a crossing; leaf_rows; groups_at_once, how many times sixteen rays go through the
 /// tree at a time; most_beam_steps, after which what a beam meets is smaller than the space between
-/// its rays, so that they go on in a stream; decider_of(tree, ray), the arithmetic that decides;
+/// its rays, so that they go on in a stream; shafts, whether rays that only ask whether they meet
+/// anything go in those; decider_of(tree, ray), the arithmetic that decides;
 /// and what rays do at a leaf in single precision (mesh_leaves-inl.h, sphere_leaves-inl.h).
 struct FloatTree {
     std::vector<WideNode> nodes; ///< the first is the root; none where no element can be met

@@ -10,6 +10,7 @@
 #endif
 
 #include "vera/accel/float_leaves-inl.h"
+#include "vera/accel/float_shafts-inl.h"
 #include "vera/accel/float_streams-inl.h"
 #include "vera/accel/float_workspace-inl.h"
 
@@ -19,6 +20,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <type_traits>
 
 #include <hwy/highway.h>
 
@@ -43,6 +45,25 @@ HWY_NOINLINE void doubt_lanes(
             static_cast<std::size_t>(std::countr_zero(lanes)),
             static_cast<std::uint32_t>(leaf.first()),
             place_in_leaf(leaf_size(leaf), j));
+}
+
+/// Decides which of the lanes' rays meet element j of a leaf.
+template <typename Tree>
+HWY_NOINLINE void decide_lanes(
+    const Search<Tree>& search,
+    const TreeChild& leaf,
+    std::size_t j,
+    GroupMask lanes,
+    RayGroup& group) {
+    const auto first = static_cast<std::uint32_t>(leaf.first());
+    const std::size_t size = leaf_size(leaf);
+    const std::uint32_t place = place_in_leaf(size, j);
+    lanes = not_ruled_out(rows_of(search.tree, leaf) + j, size, lanes, group);
+    for (; lanes != 0; lanes &= lanes - 1) {
+        const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
+        if (surely_meets(search.tree, group.rays[lane], first, place))
+            group.met |= lanes & -lanes;
+    }
 }
 
 /// What the rays of a beam do at a leaf.
@@ -172,6 +193,74 @@ visit_leaf(const Search<Tree>& search, const TreeChild& leaf, StreamMask rays, R
     }
 }
 
+/// Tests rays of a shaft, side by side, against a leaf's elements that it may meet.
+template <typename Tree, typename Elements>
+HWY_INLINE void meet_elements(
+    const Search<Tree>& search,
+    const TreeChild& leaf,
+    const Elements& elements,
+    GroupMask lanes,
+    const RayShaft& shaft) {
+    const Rays d;
+    RayGroup& group = *shaft.group;
+    std::uint32_t may = elements_in_shaft(elements, leaf_size(leaf), shaft);
+    search.counts.tests += static_cast<std::uint64_t>(std::popcount(may));
+    for (; may != 0; may &= may - 1) {
+        const auto j = static_cast<std::size_t>(std::countr_zero(may));
+        for (std::size_t i = 0; i < group_size; i += hn::Lanes(d)) {
+            const auto meeting = meeting_spread(d, elements, j, group, i);
+            const GroupMask asked = lanes & ~group.met;
+            const GroupMask sure = bits_of(d, meeting.sure) << i & asked;
+            const GroupMask doubtful = bits_of(d, meeting.may) << i & asked & ~sure;
+            group.met |= sure;
+            if (HWY_UNLIKELY(doubtful != 0))
+                decide_lanes(search, leaf, j, doubtful, group);
+        }
+    }
+}
+
+/// What the rays of shafts, of which is only asked whether they meet anything, do at a leaf.
+template <bool any, typename Tree>
+HWY_NOINLINE void visit_leaf(
+    const Search<Tree>& search, const TreeChild& leaf, StreamMask rays, ShaftStream& stream) {
+    static_assert(any);
+    const LeafLanes d;
+    const std::size_t size = leaf_size(leaf);
+    const float* const rows = rows_of(search.tree, leaf);
+    decltype(spread_elements(search, rows, size)) elements;
+    bool spread = false;
+    StreamMask alone = 0;
+    for (std::size_t number = 0; number < stream.count; ++number) {
+        const GroupMask lanes = lanes_of(rays & stream.left, number);
+        RayShaft& shaft = *stream.shafts[number];
+        if (lanes == 0)
+            continue;
+        if (std::popcount(lanes) <= few_at_leaf) {
+            alone |= rays_of(lanes, number);
+            write_once(shaft);
+            continue;
+        }
+        if (!spread)
+            elements = spread_elements(search, rows, size);
+        spread = true;
+        meet_elements(search, leaf, elements, lanes, shaft);
+        stream.left &= ~rays_of(shaft.group->met, number);
+    }
+    if (alone == 0)
+        return;
+    search.counts.tests += size * static_cast<std::size_t>(std::popcount(alone));
+    for (std::size_t i = 0; i < size; i += hn::Lanes(d)) {
+        const auto sides = elements_at(search, d, rows, size, i);
+        for (StreamMask rest = alone & stream.left; rest != 0; rest &= rest - 1) {
+            SingleRay& ray = single_at(stream, static_cast<std::size_t>(std::countr_zero(rest)));
+            if (take_meetings<any>(search, leaf, i, meeting_single(sides, ray), ray)) {
+                ray.group->met |= GroupMask{1} << ray.lane;
+                stream.left &= ~(rest & -rest);
+            }
+        }
+    }
+}
+
 /// Moves the beam to the next child that waits for it; false when there is none.
 HWY_INLINE bool take_waiting(BeamWalk& beam) {
     if (beam.size == 0)
@@ -247,16 +336,37 @@ HWY_INLINE RayStream& start_stream(
     return stream;
 }
 
+/// Makes a stream of shafts of one octant, which begins at the root.
+template <typename Tree>
+HWY_INLINE void start_stream(
+    const Search<Tree>& search,
+    std::size_t number,
+    std::span<RayShaft* const> shafts,
+    std::size_t octant) {
+    ShaftStream& stream = search.space.shaft_streams[number];
+    std::copy(shafts.begin(), shafts.end(), stream.shafts.begin());
+    stream.count = shafts.size();
+    stream.left = 0;
+    for (std::size_t i = 0; i < shafts.size(); ++i)
+        stream.left |= rays_of(shafts[i]->group->followed, i);
+    stream.places = plane_places[octant];
+    stream.stack = {
+        search.space.stream_children.data() + number * search.space.depth,
+        search.space.stream_waiting.data() + number * search.space.depth,
+        0};
+    stream.stack.push(TreeChild::node(0), stream.left);
+}
+
 /// Follows the streams, a step each in turn, so that what each needs next arrives while the others
 /// work.
-template <bool any, typename Tree>
-HWY_NOINLINE void follow_streams(const Search<Tree>& search, std::size_t count) {
+template <bool any, typename Tree, typename Stream>
+HWY_NOINLINE void
+follow_streams(const Search<Tree>& search, Stream* const streams, std::size_t count) {
     const Tree& tree = search.tree;
     std::uint64_t under_way = (std::uint64_t{1} << count) - 1;
     while (under_way != 0) {
         for (std::uint64_t those = under_way; those != 0; those &= those - 1) {
-            RayStream& stream =
-                search.space.streams[static_cast<std::size_t>(std::countr_zero(those))];
+            Stream& stream = streams[static_cast<std::size_t>(std::countr_zero(those))];
             TreeChild child;
             const StreamMask rays = stream.stack.take(stream.left, child);
             if (rays == 0) {
@@ -273,9 +383,9 @@ HWY_NOINLINE void follow_streams(const Search<Tree>& search, std::size_t count) 
                 fetch(tree, stream.stack.children[stream.stack.size - 1]);
         }
     }
-    if constexpr (!any)
+    if constexpr (!any && std::is_same_v<Stream, RayStream>)
         for (std::size_t i = 0; i < count; ++i) {
-            const RayStream& stream = search.space.streams[i];
+            const RayStream& stream = streams[i];
             for (std::size_t j = 0; j < stream.count; ++j) {
                 const SingleRay& ray = *stream.rays[j];
                 ray.group->leaf[ray.lane] = ray.leaf;

@@ -11,6 +11,7 @@
 
 #include "vera/accel/float_beams-inl.h"
 #include "vera/accel/float_rays-inl.h"
+#include "vera/accel/float_shafts-inl.h"
 #include "vera/accel/float_singles-inl.h"
 #include "vera/accel/float_streams-inl.h"
 #include "vera/accel/float_tree.h"
@@ -61,6 +62,8 @@ struct Workspace {
     std::size_t depth = 0;          ///< of a stack
     std::vector<TreeChild> waiting; ///< a stack for each beam; the first is that of one ray as well
     std::array<RayStream, streams_at_once> streams;
+    std::array<RayShaft, most_groups> shafts;
+    std::array<ShaftStream, streams_at_once> shaft_streams;
     std::vector<TreeChild> stream_children;
     std::vector<std::uint64_t> stream_waiting;
     std::vector<Doubtful> doubtful;

@@ -69,6 +69,10 @@ inline std::optional<double> end_in_bounds(const Ray& ray, Vec3 a, Vec3 b, Vec3 
     return far;
 }
 
+/// A ray that comes to a triangle's plane faster than this, by the largest coordinates of its
+/// direction and two sides, is well known to meet the plane where rounding says.
+constexpr double well_known_crossing = 0x1p-20;
+
 /// The test that decides whether a ray meets a triangle, its edges and corners included, and where.
 /// A ray in the triangle's plane does not.
 ///
@@ -83,8 +87,7 @@ mesh_crossing(const PreparedRay& prepared, Vec3 a, Vec3 b, Vec3 c) {
     const double size =
         max_component(abs(b - a)) * max_component(abs(c - a)) * max_component(abs(ray.direction));
     const double speed = std::abs(dot(cross(b - a, c - a), ray.direction));
-    constexpr double well_known = 0x1p-20;
-    const bool known = speed > well_known * size;
+    const bool known = speed > well_known_crossing * size;
     // Most of what is asked about is the face that a ray starts beside: this settles it.
     if (known && !prepared.covers(crossing.t))
         return std::nullopt;

@@ -30,15 +30,6 @@ namespace vera::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-template <typename D>
-HWY_INLINE Vector<hn::Vec<D>>
-cross_in_order(const Vector<hn::Vec<D>>& a, const Vector<hn::Vec<D>>& b, D) {
-    return {
-        hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)),
-        hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
-        hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
-}
-
 /// The corners of a triangle for each lane.
 using CornerRows = std::array<std::array<GroupRow<float>, 3>, 3>;
 

@@ -76,7 +76,8 @@ struct MeshTree;
 ///
 /// Of many rays, those that follow each other should go nearly the same way where that is possible:
 /// sixteen that start at one place, as of a square of 4 x 4 pixels, go through the index together,
-/// and of others those of 256 whose directions have the same signs.
+/// and so do sixteen that run nearly alike where only is asked whether they meet anything, as those
+/// to a light; of others those of 256 whose directions have the same signs.
 class MeshIndex {
 public:
     /// Throws std::invalid_argument where a triangle names a vertex that there is not,

@@ -12,6 +12,7 @@
 #include "vera/accel/float_search-inl.h"
 #include "vera/accel/mesh_hits-inl.h"
 #include "vera/accel/mesh_leaves-inl.h"
+#include "vera/accel/mesh_shafts-inl.h"
 
 #include <hwy/highway.h>
 

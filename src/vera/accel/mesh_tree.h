@@ -17,6 +17,7 @@ struct MeshTree : FloatTree {
     static constexpr std::size_t leaf_rows = 10;
     static constexpr std::size_t groups_at_once = 16;
     static constexpr std::uint32_t most_beam_steps = 48;
+    static constexpr bool shafts = true;
 
     MeshSpans mesh;
     MeshIndexStatistics statistics;

@@ -18,6 +18,7 @@ struct SphereTree : FloatTree {
     static constexpr std::size_t leaf_rows = 5;
     static constexpr std::size_t groups_at_once = 32;
     static constexpr std::uint32_t most_beam_steps = 400;
+    static constexpr bool shafts = false;
 
     SphereSpan spheres;
     SphereIndexStatistics statistics;
