@@ -147,6 +147,39 @@ TEST(DeviationInPixels, OfSurfacesRoundTheViewerIsKeptInThePictureWithFewFacetsB
     }
 }
 
+/// Close to the wall of a large ball, whatever its first facets are: what bulges before the viewer
+/// may belong to one of which all corners lie behind.
+TEST(DeviationInPixels, OfASurfaceCloseBeforeTheViewerCountsWhereItsFacetLiesBehind) {
+    constexpr double radius = 100;
+    constexpr double before = radius - 1;
+    for (const Vec3 along :
+         {Vec3{0.98, 0.14, 0.14},
+          Vec3{1, 0, 0},
+          Vec3{1, 1, 0},
+          Vec3{1, 1, 1},
+          Vec3{0.9, 0.3, 0.1},
+          Vec3{-0.3, 0.2, 0.7}}) {
+        const Vec3 forward = normalized(along);
+        const Vec3 across = normalized(cross(forward, {0.1, 0.9, -0.2}));
+        const Vec3 up = cross(across, forward);
+        Camera camera;
+        camera.viewpoint = before * forward;
+        const Vec3 middle = camera.viewpoint + 0.5 * forward;
+        camera.lower_left = middle - across - up;
+        camera.lower_right = middle + across - up;
+        camera.upper_left = middle - across + up;
+        const CameraMap map(camera);
+        Scene scene;
+        test::add(scene.geometry, Sphere{{}, radius});
+        number_primitives(scene);
+        const Facets all = facets(scene, deviation_in_pixels(map, 512, 512, 0.1, FacetReach::seen));
+        double farthest = 0;
+        for (const Vec3& corner : all.corners)
+            farthest = std::max(farthest, dot(corner - camera.viewpoint, forward));
+        EXPECT_GT(farthest, 0.99) << "the wall is there";
+    }
+}
+
 TEST(DeviationInPixels, BehindTheViewerCountsWhereShadowsAreThrown) {
     Camera camera;
     camera.viewpoint = {0, 0, 4};

@@ -290,12 +290,15 @@ double CameraMap::size_of_pixel_around(double columns, double rows, Vec3 point) 
     return pixel * std::max({image_point(point).w, at_corner, nearest_part});
 }
 
+double CameraMap::way_behind(Vec3 point) const {
+    return std::max(0.0, -image_point(point).w / length(from_world_.linear.rows[2]));
+}
+
 Deviation deviation_in_pixels(
     const CameraMap& map, double columns, double rows, double pixels, FacetReach reach) {
     return [=, &map](Vec3 point) {
-        if (reach == FacetReach::seen && !(map.image_point(point).w > 0))
-            return std::numeric_limits<double>::infinity();
-        return pixels * map.size_of_pixel_around(columns, rows, point);
+        const double in_pixels = pixels * map.size_of_pixel_around(columns, rows, point);
+        return reach == FacetReach::seen ? std::max(in_pixels, map.way_behind(point)) : in_pixels;
     };
 }
 

@@ -41,6 +41,9 @@ public:
     /// as large as it is in the farthest corner of the picture at that distance.
     double size_of_pixel_around(double columns, double rows, Vec3 point) const;
 
+    /// How far the point lies behind the plane, parallel to the picture, of the view point; else 0.
+    double way_behind(Vec3 point) const;
+
 private:
     Affine3 from_world_;
     bool is_parallel_ = false;
@@ -58,7 +61,8 @@ enum class FacetReach {
 
 /// How far facets may lie off curved surfaces: so many pixels of a picture. What the picture does
 /// not show has facets as at its corners, since in the plane of the viewer a pixel has no size;
-/// behind it, where nothing there throws shadows, as few as may be. Refers to the map.
+/// behind it, where nothing there throws shadows, as few as may be: off by as much as it lies
+/// behind that plane, so that nothing comes before it by that. Refers to the map.
 Deviation deviation_in_pixels(
     const CameraMap& map, double columns, double rows, double pixels, FacetReach reach);
 
