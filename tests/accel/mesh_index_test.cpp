@@ -46,6 +46,24 @@ using testing::with_broken_vertices;
 constexpr MeshIndexQuality both_qualities[] = {MeshIndexQuality::usual, MeshIndexQuality::high};
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
+/// Sixteen rays at a time of those of lights, each begun or ended at, just before or just behind
+/// where it meets the mesh first: neighbours stay neighbours.
+std::vector<MeshRay> rays_of_lights_cut_at_hits(const SampleMesh& mesh, std::uint64_t seed) {
+    const std::vector<MeshRay> whole = rays_of_lights(seed, mesh, 192);
+    std::vector<MeshRay> rays;
+    for (const float side : {-infinity, 0.0F, infinity})
+        for (const bool is_end : {false, true})
+            for (MeshRay ray : whole) {
+                const MeshAnswer answer = brute_force_answer(mesh.spans(), ray);
+                if (answer.met) {
+                    const float t = answer.nearest.t;
+                    (is_end ? ray.t_max : ray.t_min) = side == 0 ? t : std::nextafter(t, side);
+                }
+                rays.push_back(ray);
+            }
+    return rays;
+}
+
 /// Rays of all sorts, some of which begin and end just where others meet the mesh.
 std::vector<MeshRay> rays_of_all_sorts(const SampleMesh& mesh, std::uint64_t seed) {
     std::vector<MeshRay> rays = random_mesh_rays(seed, mesh, 400);
@@ -54,6 +72,9 @@ std::vector<MeshRay> rays_of_all_sorts(const SampleMesh& mesh, std::uint64_t see
     for (const MeshRay& ray : rays_of_lights(seed, mesh, 400))
         rays.push_back(ray);
     const std::size_t uncut = rays.size();
+    rays.resize((uncut + 15) / 16 * 16, rays.front()); // groups begin anew
+    for (const MeshRay& ray : rays_of_lights_cut_at_hits(mesh, seed))
+        rays.push_back(ray);
     for (std::size_t i = 0; i < uncut; i += 7) {
         const MeshAnswer answer = brute_force_answer(mesh.spans(), rays[i]);
         if (!answer.met)

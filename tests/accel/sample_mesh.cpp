@@ -362,6 +362,7 @@ std::vector<MeshRay> rays_of_lights(std::uint64_t seed, const SampleMesh& mesh, 
         // Those of one light from a few places, or from a square about each of a few.
         const bool from_squares = dice.one_in(2);
         const float patch = dice.any_of({0, 0x1p-20F, 0.001F, 0.01F});
+        const bool are_cut = dice.one_in(2); // each as it comes
         MeshPoint corner = {};
         MeshPoint right = {};
         MeshPoint down = {};
@@ -381,6 +382,10 @@ std::vector<MeshRay> rays_of_lights(std::uint64_t seed, const SampleMesh& mesh, 
             ray.direction = (to_place ? light - ray.origin : direction)
                 + spread * direction_by(dice, mesh, ray.origin);
             ray.t_max = t_max;
+            if (are_cut) {
+                ray.t_min = dice.any_of({0, 0, 0x1p-20F, 0.25F, 0.5F});
+                ray.t_max = dice.any_of({t_max, 1, std::nextafter(1.0F, 0.0F), 0.75F});
+            }
             rays.push_back(ray);
         }
     }

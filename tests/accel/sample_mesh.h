@@ -59,7 +59,8 @@ std::vector<MeshRay>
 coherent_mesh_rays(std::uint64_t seed, const SampleMesh& mesh, std::size_t count);
 
 /// Rays of which each 96 run to one place, or in one direction, or nearly: those of one light. They
-/// start at all places, or each 16 in a small square.
+/// start at all places, or each 16 in a small square, and of half of the lights begin and end
+/// anywhere.
 std::vector<MeshRay> rays_of_lights(std::uint64_t seed, const SampleMesh& mesh, std::size_t count);
 
 /// Copies of a ray that begin and end before, at and behind the t.

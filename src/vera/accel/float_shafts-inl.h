@@ -39,8 +39,9 @@ constexpr int few_at_leaf = 10;
 /// The anchor is where they start or where they end, whichever is narrower: at a light, a point all
 /// but for what is rounded.
 ///
-/// Boxes are tested as against a BoxedRay: none of the rays comes to a plane ahead of it earlier
-/// than the near line tells, nor later than the far one.
+/// Boxes are tested as against a BoxedRay, but by one line where rays enter and another where they
+/// leave: none of the rays comes to a plane ahead of it earlier than the near line tells, nor later
+/// than the far one.
 struct alignas(64) RayShaft {
     float near_inverse[3];
     float far_inverse[3];
@@ -203,6 +204,7 @@ HWY_NOINLINE inline bool start_shaft(RayGroup& group, RayShaft& shaft, std::size
     GroupRow<float> ends;
     for (std::size_t i = 0; i < group_size; i += hn::Lanes(d)) {
         const V start = hn::Mul(hn::Load(d, group.origin[main].data() + i), hn::Set(d, sign));
+        // No number where an endless ray has no direction along the axis: too steep for a shaft.
         const V way = hn::Mul(
             hn::Load(d, group.limit.data() + i),
             hn::Abs(hn::Load(d, group.direction[main].data() + i)));
@@ -215,6 +217,9 @@ HWY_NOINLINE inline bool start_shaft(RayGroup& group, RayShaft& shaft, std::size
     across.from_end = end - start < farthest_end && run_together(group, lanes);
     const float anchor = across.from_end ? end : start;
     across.way = anchor - start;
+    // Slopes, each off by 2^-23 of itself, and places at the anchor are rounded, and so are the
+    // lines that are made of them: by less than 2^-21 of the way and a rounding or two of the
+    // coordinates, of which the group's slack is several.
     across.slack = 2 * group.slack + 0x1p-20F * across.way;
     shaft.limit = (end - start) * (1 + 0x1p-20F) + 2 * across.slack;
     shaft.before = across.from_end ? shaft.limit : 0;
@@ -361,8 +366,7 @@ HWY_NOINLINE void put_met_children(const WideNode& node, StreamMask rays, ShaftS
     if (alone != 0) {
         const auto ray_at = [&](std::size_t i) {
             const SingleRay& ray = single_at(stream, i);
-            return BoxedRay<1>{
-                ray.inverse, ray.inverse, ray.near_offset, ray.far_offset, ray.limit};
+            return BoxedRay<1>{ray.inverse, ray.near_offset, ray.far_offset, ray.limit};
         };
         const ChildRays of_single = rays_of_children<1>(node, stream.places, alone, ray_at);
 #if VERA_AVX512

@@ -179,7 +179,7 @@ HWY_INLINE void put_met_children(const WideNode& node, StreamMask rays, RayStrea
         }
     const auto ray_at = [&](std::size_t i) {
         const SingleRay& ray = *stream.rays[i];
-        return BoxedRay<1>{ray.inverse, ray.inverse, ray.near_offset, ray.far_offset, ray.limit};
+        return BoxedRay<1>{ray.inverse, ray.near_offset, ray.far_offset, ray.limit};
     };
     put_waiting(
         node, rays_of_children<1>(node, stream.places, rays, ray_at), stream.order, stream.stack);

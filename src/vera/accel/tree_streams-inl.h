@@ -73,13 +73,11 @@ HWY_INLINE ChildRays all_for(std::uint32_t children, StreamMask rays) {
 #endif
 
 /// A ray as boxes are tested against it. It comes to a plane across an axis, moved outward by the
-/// slack, at (plane's place) * near_inverse + near_offset where it enters the box there, and at the
-/// same with far_inverse and far_offset where it leaves. From one axis to the next it is so many
-/// numbers as Stride says.
+/// slack, at (plane's place) * inverse + near_offset where it enters the box there, and at the same
+/// with far_offset where it leaves. From one axis to the next it is so many numbers as Stride says.
 template <std::size_t Stride>
 struct BoxedRay {
-    const float* near_inverse;
-    const float* far_inverse;
+    const float* inverse;
     const float* near_offset;
     const float* far_offset;
     float limit;
@@ -103,32 +101,21 @@ HWY_INLINE ChildRays rays_of_children(
         const auto last_z = hn::Load(d, planes + places[5] + i);
         for (StreamMask rest = rays; rest != 0; rest &= rest - 1) {
             const BoxedRay<Stride> ray = ray_at(static_cast<std::size_t>(std::countr_zero(rest)));
-            const auto inverse = [&](const float* of, std::size_t axis)
-                                     HWY_ATTR { return hn::Set(d, of[axis * Stride]); };
+            const auto x = hn::Set(d, ray.inverse[0]);
+            const auto y = hn::Set(d, ray.inverse[Stride]);
+            const auto z = hn::Set(d, ray.inverse[2 * Stride]);
             const auto near = hn::Max(
                 hn::Max(
-                    hn::MulAdd(
-                        first_x, inverse(ray.near_inverse, 0), hn::Set(d, ray.near_offset[0])),
-                    hn::MulAdd(
-                        first_y,
-                        inverse(ray.near_inverse, 1),
-                        hn::Set(d, ray.near_offset[Stride]))),
+                    hn::MulAdd(first_x, x, hn::Set(d, ray.near_offset[0])),
+                    hn::MulAdd(first_y, y, hn::Set(d, ray.near_offset[Stride]))),
                 hn::Max(
-                    hn::MulAdd(
-                        first_z,
-                        inverse(ray.near_inverse, 2),
-                        hn::Set(d, ray.near_offset[2 * Stride])),
-                    hn::Zero(d)));
+                    hn::MulAdd(first_z, z, hn::Set(d, ray.near_offset[2 * Stride])), hn::Zero(d)));
             const auto far = hn::Min(
                 hn::Min(
-                    hn::MulAdd(last_x, inverse(ray.far_inverse, 0), hn::Set(d, ray.far_offset[0])),
-                    hn::MulAdd(
-                        last_y, inverse(ray.far_inverse, 1), hn::Set(d, ray.far_offset[Stride]))),
+                    hn::MulAdd(last_x, x, hn::Set(d, ray.far_offset[0])),
+                    hn::MulAdd(last_y, y, hn::Set(d, ray.far_offset[Stride]))),
                 hn::Min(
-                    hn::MulAdd(
-                        last_z,
-                        inverse(ray.far_inverse, 2),
-                        hn::Set(d, ray.far_offset[2 * Stride])),
+                    hn::MulAdd(last_z, z, hn::Set(d, ray.far_offset[2 * Stride])),
                     hn::Set(d, ray.limit)));
             take(hn::Le(near, far), rest & -rest);
         }

@@ -56,7 +56,6 @@ HWY_INLINE void put_met_children(
     const auto ray_at = [&](std::size_t lane) {
         return BoxedRay<packet_size>{
             rays.inverse[0].data() + lane,
-            rays.inverse[0].data() + lane,
             rays.near_offset[0].data() + lane,
             rays.far_offset[0].data() + lane,
             frame.limit[lane]};
