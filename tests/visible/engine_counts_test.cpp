@@ -170,6 +170,7 @@ TEST(EngineCounts, OfTheCellsGrowNoFasterThanTrianglesWhereWhatIsHiddenLiesBehin
     check("scatter", scatter, 500);
     check("balls", balls, 500);
     check("terrain", terrain, 500);
+    check("hidden grate", hidden_grate, 500);
 }
 
 TEST(EngineCounts, OfListsOfTheCellsAreInProportionToTrianglesEverywhere) {

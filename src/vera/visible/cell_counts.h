@@ -8,11 +8,13 @@ namespace vera {
 /// The steps of a cell raster, which are the same on every machine and for any number of threads.
 struct CellCounts {
     std::uint64_t cells = 0;
-    std::uint64_t touched = 0; ///< cells of each triangle, those in which it is hidden as well
+    /// Squares of cells in which large triangles were looked for, and the cells of those that are
+    /// not hidden in squares, and of all others; those in which they are hidden as well.
+    std::uint64_t touched = 0;
     std::uint64_t entries = 0; ///< of the cells' lists
     std::uint64_t edges = 0;
-    std::uint64_t edge_cells = 0;     ///< asked whether an edge is hidden there
-    std::uint64_t followed = 0;       ///< edges that are not hidden as a whole
+    std::uint64_t edge_cells = 0; ///< and squares of them, asked whether an edge is hidden there
+    std::uint64_t followed = 0;   ///< edges that are not hidden as a whole
     std::uint64_t followed_cells = 0; ///< of these edges
     std::uint64_t looked_at = 0;      ///< entries of the lists there
     std::uint64_t candidates = 0;     ///< different triangles there, which edges were compared with

@@ -6,6 +6,7 @@
 #include "vera/base/progress_part.h"
 #include "vera/visible/drawing_memory.h"
 #include "vera/visible/edge_sweep.h"
+#include "vera/visible/hidden_squares.h"
 #include "vera/visible/part_sweeps.h"
 #include "vera/visible/piece_lists.h"
 #include "vera/visible/sheets.h"
@@ -22,14 +23,18 @@ namespace vera {
 namespace {
 
 /// Of an edge that is so near, which eighths lie behind what covers their cells; all of a point.
-/// Calls visit() for each cell that is looked at.
+/// Calls visit() for each cell, and each square of cells, that is looked at.
 template <typename Visit>
 std::uint8_t hidden_eighths(
-    const CellRaster& raster, const ScreenEdges::Edge& edge, double near, const Visit& visit) {
+    const CellRaster& raster,
+    const HiddenSquares& squares,
+    const ScreenEdges::Edge& edge,
+    double near,
+    const Visit& visit) {
     const ScreenPoint a = raster.scene.vertices[edge.begin].point;
     const ScreenPoint b = raster.scene.vertices[edge.end].point;
     std::uint8_t hidden = all_eighths;
-    if (a == b)
+    if (a == b || squares.hide(near, std::array{a, b}, visit))
         return hidden;
     const SegmentSlices slices(raster.cells, a, b);
     const std::int32_t count = slices.count();
@@ -172,18 +177,20 @@ CellRaster raster_of(
             raster.is_near_change = edges_near(*change, raster, cells);
             return cells_along(raster.is_near_change, raster, cells);
         };
-    raster.cells = cells_of(scene, raster.slopes, cancel, asked);
+    const SheetScene sheets = {scene, raster.edges, neighbours, raster.slopes};
+    raster.cells = cells_of(scene, raster.slopes, cancel, asked, &sheets);
     next_stage();
-    block_by_sheets(raster.cells, {scene, raster.edges, neighbours, raster.slopes}, cancel);
+    block_by_sheets(raster.cells, sheets, cancel);
     raster.shadow_cells = shadow_cells_of(raster.cells, scene, raster.slopes, cancel);
     next_stage();
     const std::vector<double> nearness = nearness_of_edges(raster);
+    const HiddenSquares squares(raster.cells);
     raster.hidden_eighths.resize(raster.edges.edges.size());
     parallel_ranges(raster.hidden_eighths.size(), 4096, [&](std::size_t first, std::size_t last) {
         stop_if_raised(cancel);
         for (std::size_t i = first; i < last; ++i)
             raster.hidden_eighths[i] =
-                hidden_eighths(raster, raster.edges.edges[i], nearness[i], [] {});
+                hidden_eighths(raster, squares, raster.edges.edges[i], nearness[i], [] {});
     });
     return raster;
 }
@@ -350,13 +357,21 @@ void count_cells(const CellRaster& raster, CellCounts& counts) {
     counts.cells = raster.cells.blocked.size();
     counts.entries = raster.cells.triangles.size();
     counts.edges = raster.edges.edges.size();
-    for (const ScreenTriangle& triangle : raster.scene.triangles)
-        for_each_cell_of(raster.cells, corners_of(raster.scene, triangle), [&](std::size_t) {
-            ++counts.touched;
-        });
+    const auto touch = [&](auto...) { ++counts.touched; };
+    const std::vector<EdgeNeighbours> neighbours = edge_neighbours(raster.scene, raster.edges);
+    const SheetScene sheets = {raster.scene, raster.edges, neighbours, raster.slopes};
+    const HiddenSquares before_sheets(cells_of(raster.scene, raster.slopes, nullptr, {}, &sheets));
+    for (std::size_t i = 0; i < raster.corners.size(); ++i) {
+        const double near = nearest_for_hiding(raster.slopes[i], raster.corners[i]);
+        const ScreenTriangle& triangle = raster.scene.triangles[i];
+        if (triangle.is_shadow() || !before_sheets.hide(near, raster.corners[i], touch))
+            for_each_cell_of(raster.cells, corners_of(raster.scene, triangle), touch);
+    }
     const std::vector<double> nearness = nearness_of_edges(raster);
+    const HiddenSquares squares(raster.cells);
     for (std::size_t i = 0; i < raster.edges.edges.size(); ++i)
-        hidden_eighths(raster, raster.edges.edges[i], nearness[i], [&] { ++counts.edge_cells; });
+        hidden_eighths(
+            raster, squares, raster.edges.edges[i], nearness[i], [&] { ++counts.edge_cells; });
 }
 
 void sort_pairs(std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs) {

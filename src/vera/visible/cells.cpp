@@ -2,6 +2,8 @@
 #include "vera/visible/cells.h"
 
 #include "vera/base/long_loop.h"
+#include "vera/visible/hidden_squares.h"
+#include "vera/visible/sheets.h"
 
 #include <array>
 #include <cmath>
@@ -24,10 +26,12 @@ double least_nearness(const Cells& cells, const NearnessSlope& slope, ScreenPoin
     return least - 1;
 }
 
-/// Whether the triangle is as wide and high as a cell.
-bool may_cover_a_cell(const std::array<ScreenVertex, 3>& corners, const Cells& cells) {
+/// Whether the triangle is as wide and high as so many cells.
+bool is_as_large_as(
+    std::int32_t count, const std::array<ScreenVertex, 3>& corners, const Cells& cells) {
+    const std::int64_t least = std::int64_t{count} << cells.shift;
     const auto reaches = [&](std::int32_t a, std::int32_t b, std::int32_t c) {
-        return std::max({a, b, c}) - std::min({a, b, c}) >= std::int32_t{1} << cells.shift;
+        return std::max({a, b, c}) - std::min({a, b, c}) >= least;
     };
     return reaches(corners[0].point.x, corners[1].point.x, corners[2].point.x)
         && reaches(corners[0].point.y, corners[1].point.y, corners[2].point.y);
@@ -51,7 +55,8 @@ public:
         const ScreenScene& scene,
         std::span<const NearnessSlope> slopes,
         const CancelFlag* cancel,
-        const AskedCells& asked);
+        const AskedCells& asked,
+        const SheetScene* sheets);
 
     Cells cells();
 
@@ -65,41 +70,60 @@ private:
     };
 
     /// Calls visit(triangle, row, RowOfCells) for the rows that triangles touch, of those of which
-    /// does_matter(triangle, corners) is true: triangle by triangle within a row, in several rows
-    /// at once.
+    /// does_matter(number, corners) is true: triangle by triangle within a row, in several rows at
+    /// once.
     template <typename DoesMatter, typename Visit>
     void for_each_row(const Cells& cells, const DoesMatter& does_matter, const Visit& visit) const;
 
-    /// Calls visit(cell, triangle) for the triangles of each cell that are not hidden there.
-    template <typename Visit>
-    void for_each_entry(const Cells& cells, const Visit& visit) const;
+    /// Calls visit(cell, triangle) for the triangles of each cell that are not hidden there, of
+    /// those of which does_matter(number, corners) is true.
+    template <typename DoesMatter, typename Visit>
+    void
+    for_each_entry(const Cells& cells, const DoesMatter& does_matter, const Visit& visit) const;
+
+    template <typename DoesMatter>
+    std::uint64_t count_entries(Cells& cells, const DoesMatter& does_matter) const;
+    template <typename DoesMatter>
+    void fill_lists(Cells& cells, const DoesMatter& does_matter) const;
+
+    /// Shadows are in no list.
+    auto is_surface() const {
+        return [this](std::size_t i, const auto&) { return !scene_.triangles[i].is_shadow(); };
+    }
+
+    std::uint64_t most_entries() const { return 64 * std::uint64_t{nearness_.size()} + 65536; }
 
     void ask(const Cells& cells);
     template <typename IsAsked>
     void find_reaches(const IsAsked& is_asked);
     void block(Cells& cells) const;
+    void block_by_large_sheets(Cells& cells) const;
+    void leave_out_hidden(const Cells& cells);
     std::uint64_t count(Cells& cells);
 
     const ScreenScene& scene_;
     std::span<const NearnessSlope> slopes_;
     const CancelFlag* cancel_;
     const AskedCells& asked_;
-    std::vector<std::uint8_t> is_asked_;      ///< of cells; empty: all are
-    std::vector<std::uint8_t> is_near_asked_; ///< of triangles, whether they may touch such a cell
-    std::vector<double> nearness_;            ///< of triangles, for hiding
-    std::vector<Reach> reaches_;              ///< of groups, of the triangles near cells asked for
+    const SheetScene* sheets_;
+    std::vector<std::uint8_t> is_asked_; ///< of cells; empty: all are
+    std::vector<std::uint8_t> matters_; ///< of triangles, whether they may be in such a cell's list
+    std::vector<double> nearness_;      ///< of triangles, for hiding
+    std::vector<Reach> reaches_;        ///< of groups, of the triangles near cells asked for
 };
 
 CellLists::CellLists(
     const ScreenScene& scene,
     std::span<const NearnessSlope> slopes,
     const CancelFlag* cancel,
-    const AskedCells& asked)
+    const AskedCells& asked,
+    const SheetScene* sheets)
     : scene_(scene)
     , slopes_(slopes)
     , cancel_(cancel)
     , asked_(asked)
-    , is_near_asked_(scene.triangles.size())
+    , sheets_(sheets)
+    , matters_(scene.triangles.size())
     , nearness_(scene.triangles.size())
     , reaches_((scene.triangles.size() + group - 1) / group) {
     parallel_ranges(reaches_.size(), 64, [&](std::size_t first, std::size_t last) {
@@ -127,10 +151,10 @@ void CellLists::for_each_row(
                 continue;
             for (std::size_t i = in * group; i < std::min((in + 1) * group, nearness_.size());
                  ++i) {
-                if (is_near_asked_[i] == 0)
+                if (matters_[i] == 0)
                     continue;
                 const auto corners = corners_of(scene_, scene_.triangles[i]);
-                if (!does_matter(scene_.triangles[i], corners))
+                if (!does_matter(i, corners))
                     continue;
                 RowsOfCells rows(cells, corners, first, last);
                 for (std::int32_t row = rows.first(); row <= rows.last(); ++row)
@@ -140,17 +164,38 @@ void CellLists::for_each_row(
     });
 }
 
-template <typename Visit>
-void CellLists::for_each_entry(const Cells& cells, const Visit& visit) const {
+template <typename DoesMatter, typename Visit>
+void CellLists::for_each_entry(
+    const Cells& cells, const DoesMatter& does_matter, const Visit& visit) const {
     for_each_row(
-        cells,
-        [](const ScreenTriangle& triangle, const auto&) { return !triangle.is_shadow(); },
-        [&](std::uint32_t i, std::int32_t row, const RowOfCells& found) {
+        cells, does_matter, [&](std::uint32_t i, std::int32_t row, const RowOfCells& found) {
             for (std::int32_t j = found.touched.first; j <= found.touched.last; ++j)
                 if (const std::size_t cell = cells.number(j, row);
                     nearness_[i] >= cells.blocked[cell])
                     visit(cell, i);
         });
+}
+
+/// Counts the triangles of each list into starts, two places farther on; returns how many there are
+/// in all.
+template <typename DoesMatter>
+std::uint64_t CellLists::count_entries(Cells& cells, const DoesMatter& does_matter) const {
+    cells.starts.assign(cells.blocked.size() + 2, 0);
+    for_each_entry(
+        cells, does_matter, [&](std::size_t cell, std::uint32_t) { ++cells.starts[cell + 2]; });
+    return std::accumulate(cells.starts.begin(), cells.starts.end(), std::uint64_t{0});
+}
+
+/// Fills lists that were counted.
+template <typename DoesMatter>
+void CellLists::fill_lists(Cells& cells, const DoesMatter& does_matter) const {
+    std::partial_sum(cells.starts.begin(), cells.starts.end(), cells.starts.begin());
+    cells.triangles.resize(cells.starts.back());
+    // Each list grows from where the one before it ends, until it ends where the next begins.
+    for_each_entry(cells, does_matter, [&](std::size_t cell, std::uint32_t i) {
+        cells.triangles[cells.starts[cell + 1]++] = i;
+    });
+    cells.starts.pop_back();
 }
 
 /// Of the groups, and notes which triangles is_asked(corners) is true of.
@@ -160,8 +205,8 @@ void CellLists::find_reaches(const IsAsked& is_asked) {
         std::fill(reaches_.data() + first, reaches_.data() + last, Reach{});
         for (std::size_t i = first * group; i < std::min(last * group, nearness_.size()); ++i) {
             const auto corners = corners_of(scene_, scene_.triangles[i]);
-            is_near_asked_[i] = is_asked(corners) ? 1 : 0;
-            if (is_near_asked_[i] == 0)
+            matters_[i] = is_asked(corners) ? 1 : 0;
+            if (matters_[i] == 0)
                 continue;
             Reach& reach = reaches_[i / group];
             for (const ScreenVertex& corner : corners) {
@@ -207,8 +252,8 @@ void CellLists::ask(const Cells& cells) {
 void CellLists::block(Cells& cells) const {
     for_each_row(
         cells,
-        [&](const ScreenTriangle& triangle, const auto& corners) {
-            return !triangle.is_shadow() && may_cover_a_cell(corners, cells);
+        [&](std::size_t i, const auto& corners) {
+            return !scene_.triangles[i].is_shadow() && is_as_large_as(1, corners, cells);
         },
         [&](std::uint32_t i, std::int32_t row, const RowOfCells& found) {
             for (std::int32_t j = found.covered.first; j <= found.covered.last; ++j) {
@@ -220,21 +265,63 @@ void CellLists::block(Cells& cells) const {
         });
 }
 
-/// Blocks cells of that size, and counts the triangles of each into starts, two places farther on;
-/// returns how many there are in all.
+/// A polygon far larger than cells comes as several triangles, and no one of them covers a cell on
+/// the border of two. What lies behind there would be in its list in vain, and might be much.
+void CellLists::block_by_large_sheets(Cells& cells) const {
+    if (sheets_ == nullptr)
+        return;
+    const auto is_joined = [&](std::uint32_t edge) { return sheets_->neighbours[edge].are_two(); };
+    std::vector<std::uint8_t> is_large(nearness_.size());
+    parallel_ranges(is_large.size(), 4096, [&](std::size_t first, std::size_t last) {
+        constexpr std::int32_t least = 8; // cells, so that lists of these take little time
+        for (std::size_t i = first; i < last; ++i)
+            is_large[i] = !scene_.triangles[i].is_shadow()
+                    && is_as_large_as(least, corners_of(scene_, scene_.triangles[i]), cells)
+                    && std::ranges::any_of(sheets_->edges.of_triangle[i], is_joined)
+                ? 1
+                : 0;
+    });
+    if (std::ranges::find(is_large, 1) == is_large.end())
+        return;
+    const auto does_matter = [&](std::size_t i, const auto&) { return is_large[i] != 0; };
+    Cells large = {cells.shift, cells.per_side, {}, {}, std::move(cells.blocked)};
+    if (count_entries(large, does_matter) <= most_entries()) {
+        fill_lists(large, does_matter);
+        block_by_sheets(large, *sheets_, cancel_);
+    }
+    cells.blocked = std::move(large.blocked);
+}
+
+/// Of the triangles that matter, those that are hidden in all of their cells no more do.
+void CellLists::leave_out_hidden(const Cells& cells) {
+    const HiddenSquares squares(cells);
+    parallel_ranges(matters_.size(), 4096, [&](std::size_t first, std::size_t last) {
+        stop_if_raised(cancel_);
+        for (std::size_t i = first; i < last; ++i) {
+            if (matters_[i] == 0 || scene_.triangles[i].is_shadow())
+                continue;
+            const auto corners = corners_of(scene_, scene_.triangles[i]);
+            if (squares.hide(
+                    nearness_[i], std::array{corners[0].point, corners[1].point, corners[2].point}))
+                matters_[i] = 0;
+        }
+    });
+}
+
+/// Blocks cells of that size, and counts the triangles of each, as count_entries().
 std::uint64_t CellLists::count(Cells& cells) {
     cells.per_side = std::int32_t{1} << (screen_bits - cells.shift);
     const std::size_t number =
         static_cast<std::size_t>(cells.per_side) * static_cast<std::size_t>(cells.per_side);
     cells.blocked.assign(number, -1);
-    cells.starts.assign(number + 2, 0);
     ask(cells);
     block(cells);
     for (std::size_t cell = 0; cell < is_asked_.size(); ++cell)
         if (is_asked_[cell] == 0)
             cells.blocked[cell] = std::numeric_limits<double>::infinity();
-    for_each_entry(cells, [&](std::size_t cell, std::uint32_t) { ++cells.starts[cell + 2]; });
-    return std::accumulate(cells.starts.begin(), cells.starts.end(), std::uint64_t{0});
+    block_by_large_sheets(cells);
+    leave_out_hidden(cells);
+    return count_entries(cells, is_surface());
 }
 
 Cells CellLists::cells() {
@@ -243,16 +330,9 @@ Cells CellLists::cells() {
         scene_.triangles.begin(), scene_.triangles.end(), [](const ScreenTriangle& triangle) {
             return !triangle.is_shadow();
         })));
-    const std::uint64_t most = 64 * std::uint64_t{scene_.triangles.size()} + 65536;
-    while (count(cells) > most)
+    while (count(cells) > most_entries())
         ++cells.shift; // with one cell there are as many as triangles
-    std::partial_sum(cells.starts.begin(), cells.starts.end(), cells.starts.begin());
-    cells.triangles.resize(cells.starts.back());
-    // Each list grows from where the one before it ends, until it ends where the next begins.
-    for_each_entry(cells, [&](std::size_t cell, std::uint32_t i) {
-        cells.triangles[cells.starts[cell + 1]++] = i;
-    });
-    cells.starts.pop_back();
+    fill_lists(cells, is_surface());
     return cells;
 }
 
@@ -313,9 +393,12 @@ RowOfCells RowsOfCells::next() {
         return static_cast<std::int32_t>(std::clamp<double>(place, 0, cells_.per_side - 1));
     };
     result.touched = {within(first), within(last)};
-    // Between the chords' ends the sides bulge outward.
-    const double left = column(std::max(below.left, above.left) + 1);
-    const double right = column(std::min(below.right, above.right) - 1);
+    // Between the chords' ends the sides bulge outward. There is nothing beyond the picture's
+    // border.
+    const double from = std::max(below.left, above.left);
+    const double to = std::min(below.right, above.right);
+    const double left = column(from == 0 ? from : from + 1);
+    const double right = column(to == screen_size ? to : to - 1);
     if (left < right)
         result.covered = {
             static_cast<std::int32_t>(std::max(std::ceil(left), 0.0)),
@@ -327,8 +410,9 @@ Cells cells_of(
     const ScreenScene& scene,
     std::span<const NearnessSlope> slopes,
     const CancelFlag* cancel,
-    const AskedCells& asked) {
-    return CellLists(scene, slopes, cancel, asked).cells();
+    const AskedCells& asked,
+    const SheetScene* sheets) {
+    return CellLists(scene, slopes, cancel, asked, sheets).cells();
 }
 
 Cells cells_of(const ScreenScene& scene, const CancelFlag* cancel) {

@@ -14,6 +14,8 @@
 
 namespace vera {
 
+struct SheetScene;
+
 /// The picture cut into square cells, each with the surfaces that touch it (Franklin 1980). What
 /// lies behind a triangle that covers a cell is left out there. Shadows are not in them.
 struct Cells {
@@ -120,12 +122,14 @@ using AskedCells = std::function<std::vector<std::uint8_t>(const Cells&)>;
 
 /// slopes[i] is that of triangle i. Where many triangles lie one behind the other
 /// there are fewer cells, so that the lists stay in proportion to the triangles.
-/// Cells that are not asked for have empty lists and block everything.
+/// Cells that are not asked for have empty lists and block everything. Where the scene's sheets are
+/// given, those of triangles far larger than cells hide as well (block_by_sheets()).
 Cells cells_of(
     const ScreenScene& scene,
     std::span<const NearnessSlope> slopes,
     const CancelFlag* cancel = nullptr,
-    const AskedCells& asked = {});
+    const AskedCells& asked = {},
+    const SheetScene* sheets = nullptr);
 
 /// The same where slopes are not needed otherwise.
 Cells cells_of(const ScreenScene& scene, const CancelFlag* cancel = nullptr);

@@ -22,6 +22,14 @@ struct Square {
     ScreenPoint high;
 };
 
+/// Whether the segment lies on the border of the picture, beyond which there is nothing.
+bool is_on_border(ScreenPoint a, ScreenPoint b) {
+    const auto is_on_line = [](std::int32_t first, std::int32_t second) {
+        return first == second && (first == 0 || first == screen_size);
+    };
+    return is_on_line(a.x, b.x) || is_on_line(a.y, b.y);
+}
+
 /// Whether the segment has a point of the square: no line parts them.
 bool do_meet(const Square& square, ScreenPoint a, ScreenPoint b) {
     if (std::max(a.x, b.x) < square.low.x || std::min(a.x, b.x) > square.high.x
@@ -73,13 +81,15 @@ void SheetsOfCell::join(
     std::uint32_t i, std::span<const std::uint32_t> triangles, const Square& square) {
     const ScreenScene& scene = sheets_.scene;
     const ScreenTriangle& triangle = scene.triangles[triangles[i]];
+    const ScreenPoint middle = {
+        (square.low.x + square.high.x) / 2, (square.low.y + square.high.y) / 2};
     bool meets = false;
     bool contains = true;
     for (std::size_t side = 0; side < 3; ++side) {
         const ScreenPoint from = scene.vertices[triangle.vertices[side]].point;
         const ScreenPoint to = scene.vertices[triangle.vertices[(side + 1) % 3]].point;
-        contains = contains && orientation(from, to, square.low) > 0;
-        if (!do_meet(square, from, to))
+        contains = contains && orientation(from, to, middle) > 0;
+        if (!do_meet(square, from, to) || is_on_border(from, to))
             continue;
         meets = true;
         const EdgeNeighbours& beside =
