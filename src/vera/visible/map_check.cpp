@@ -172,10 +172,11 @@ MapCheck check_map(
     parallel_ranges(parts.size(), 1, [&](std::size_t first, std::size_t last) {
         QueryCounts counts;
         for (std::size_t i = first; i < last; ++i) {
-            stop_if_raised(cancel);
             const std::size_t end = std::min(settings.points, (i + 1) * part);
-            for (std::size_t point = i * part; point < end; ++point)
+            for (std::size_t point = i * part; point < end; ++point) {
+                stop_if_raised(cancel); // what shows a face of many primitives may take long
                 compare(all, point, counts, parts[i]);
+            }
         }
         const std::lock_guard lock(mutex);
         done += last - first;
