@@ -419,6 +419,64 @@ TEST(CoplanarPatches, OfACubeAreThreeAreasAndNineLines) {
             {LineClass::hidden, 3}, {LineClass::crease, 3}, {LineClass::silhouette, 6}}));
 }
 
+/// A cube, and a blade that passes through its far side.
+std::vector<std::vector<Vec3>> sides_of_cube_and_blade() {
+    std::vector<std::vector<Vec3>> sides;
+    const Mesh mesh = cube();
+    for (std::size_t i = 0; i < 6; ++i) {
+        const auto corner = [&](std::size_t k) {
+            return mesh.positions[mesh.position_indices[6 * i + k]];
+        };
+        sides.push_back({corner(0), corner(1), corner(2), corner(5)});
+    }
+    sides.push_back({{-1.8, 0.1, -0.4}, {-0.5, 0.1, -0.4}, {-0.5, 0.1, 0.4}, {-1.8, 0.1, 0.4}});
+    return sides;
+}
+
+/// Of each class, in pixels.
+std::map<LineClass, double> lengths_of_lines(const Scene& scene) {
+    std::map<LineClass, double> lengths;
+    DrawSettings settings;
+    settings.style = DrawingStyle::hidden_lines;
+    for (const Stroke& stroke : Picture(scene).draw(settings).drawing.strokes)
+        for (std::size_t i = stroke.closed ? 0 : 1; i < stroke.points.size(); ++i) {
+            const DrawingPoint a = stroke.points[i == 0 ? stroke.points.size() - 1 : i - 1];
+            lengths[stroke.line_class] +=
+                std::hypot(stroke.points[i].x - a.x, stroke.points[i].y - a.y);
+        }
+    return lengths;
+}
+
+TEST(CoplanarPatches, HaveTheHiddenLinesOfPolygons) {
+    Scene of_polygons;
+    Scene of_meshes;
+    for (const std::vector<Vec3>& side : sides_of_cube_and_blade()) {
+        const auto index = static_cast<std::uint32_t>(of_polygons.geometry.polygons.size());
+        Polygon& polygon = of_polygons.geometry.polygons.emplace_back();
+        polygon.first_corner = static_cast<std::uint32_t>(of_polygons.geometry.corners.size());
+        polygon.corner_count = 4;
+        polygon.normal = normalized(cross(side[1] - side[0], side[2] - side[0]));
+        for (const Vec3& corner : side)
+            of_polygons.geometry.corners.push_back(corner);
+        Mesh& mesh = of_meshes.geometry.meshes.emplace_back();
+        mesh.positions = side;
+        mesh.position_indices = {0, 1, 2, 0, 2, 3};
+        for (Scene* const scene : {&of_polygons, &of_meshes}) {
+            Item& item = scene->geometry.items.emplace_back();
+            item.kind = scene == &of_meshes ? ItemKind::mesh : ItemKind::polygon;
+            item.index = index;
+        }
+    }
+    number_primitives(of_polygons);
+    number_primitives(of_meshes);
+    const std::map<LineClass, double> expected = lengths_of_lines(of_polygons);
+    const std::map<LineClass, double> lengths = lengths_of_lines(of_meshes);
+    ASSERT_EQ(lengths.size(), expected.size());
+    for (const auto& [line_class, length] : expected)
+        EXPECT_NEAR(lengths.at(line_class), length, 0.05) << static_cast<int>(line_class);
+    EXPECT_GT(expected.at(LineClass::hidden), 300);
+}
+
 /// Where one primitive of a face is drawn, a ray meets another one of it.
 TEST(CoplanarPatches, OfMeshesInSubscenesAndInShadowAreWhatRaysMeet) {
     Mesh mesh = cube();
