@@ -49,7 +49,8 @@ public:
         FilledOutline made;
         made.id = below(3) == 0 ? "" : "face-" + std::to_string(below(4));
         made.name = below(4) == 0 ? "a face" : "";
-        made.group = below(3) == 0 ? "" : "group " + std::to_string(below(2));
+        if (below(3) > 0)
+            made.group = group_named("group " + std::to_string(below(2)));
         made.color.r = static_cast<std::uint8_t>(below(3));
         if (has_gradients_ && below(3) == 0)
             made.gradient = gradient();

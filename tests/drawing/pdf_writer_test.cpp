@@ -101,10 +101,10 @@ std::vector<std::string> objects_by_stream(const std::string& pdf) {
 
 TEST(WritePdf, HasATableThatLeadsToEveryObject) {
     const std::vector<std::string> found = objects(written(write_pdf, sample_drawing()));
-    ASSERT_EQ(found.size(), 8U);
+    ASSERT_EQ(found.size(), 9U);
     EXPECT_EQ(
         found[0],
-        "<</Type/Catalog/Pages 2 0 R/OCProperties<</OCGs[6 0 R 7 0 R 8 0 R]"
+        "<</Type/Catalog/Pages 2 0 R/Metadata 9 0 R/OCProperties<</OCGs[6 0 R 7 0 R 8 0 R]"
         "/D<</Order[6 0 R 7 0 R 8 0 R]/ON[6 0 R 7 0 R 8 0 R]>>>>>>");
     EXPECT_EQ(found[1], "<</Type/Pages/Kids[3 0 R]/Count 1>>");
     EXPECT_EQ(
@@ -117,9 +117,47 @@ TEST(WritePdf, HasATableThatLeadsToEveryObject) {
     EXPECT_EQ(found[7], "<</Type/OCG/Name(Silhouette lines)>>");
 }
 
+TEST(WritePdf, TellsOfItselfInAPacketOfXmp) {
+    Drawing drawing = sample_drawing();
+    drawing.description = "caf\xC3\xA9 \xFF]]>";
+    const std::string object = objects(written(write_pdf, drawing)).back();
+    const std::string packet =
+        "<?xpacket begin=\"\xEF\xBB\xBF\" id=\"W5M0MpCehiHzreSzNTczkc9d\"?>\n"
+        "<x:xmpmeta xmlns:x=\"adobe:ns:meta/\">\n"
+        "<rdf:RDF xmlns:rdf=\"http://www.w3.org/1999/02/22-rdf-syntax-ns#\">\n"
+        "<rdf:Description rdf:about=\"\"\n"
+        " xmlns:dc=\"http://purl.org/dc/elements/1.1/\"\n"
+        " xmlns:pdf=\"http://ns.adobe.com/pdf/1.3/\"\n"
+        " xmlns:xmp=\"http://ns.adobe.com/xap/1.0/\">\n"
+        "<dc:format>application/pdf</dc:format>\n"
+        "<dc:title><rdf:Alt><rdf:li xml:lang=\"x-default\">Two &amp; more</rdf:li></rdf:Alt>"
+        "</dc:title>\n"
+        "<dc:description><rdf:Alt><rdf:li xml:lang=\"x-default\">caf\xC3\xA9 \xEF\xBF\xBD]]&gt;"
+        "</rdf:li></rdf:Alt></dc:description>\n"
+        "<xmp:CreatorTool>VERA</xmp:CreatorTool>\n"
+        "<pdf:Producer>VERA</pdf:Producer>\n"
+        "</rdf:Description>\n"
+        "</rdf:RDF>\n"
+        "</x:xmpmeta>\n"
+        "<?xpacket end=\"r\"?>";
+    EXPECT_EQ(
+        object,
+        fmt::format(
+            "<</Type/Metadata/Subtype/XML/Length {}>>\nstream\n{}\nendstream",
+            packet.size(),
+            packet));
+}
+
+TEST(WritePdf, LeavesOutOfThePacketWhatItDoesNotKnow) {
+    const std::string object = objects(written(write_pdf, {})).back();
+    EXPECT_THAT(object, HasSubstr("<pdf:Producer>VERA</pdf:Producer>"));
+    EXPECT_THAT(object, Not(HasSubstr("dc:title")));
+    EXPECT_THAT(object, Not(HasSubstr("dc:description")));
+}
+
 TEST(WritePdf, PaintsInWholeNumbers) {
     const std::vector<std::string> found = objects(written(write_pdf, sample_drawing()));
-    ASSERT_EQ(found.size(), 8U);
+    ASSERT_EQ(found.size(), 9U);
     EXPECT_EQ(inflated(found[3]), R"(q
 .0075 0 0 -.0075 0 22.5 cm
 1 1 1 rg
@@ -182,8 +220,8 @@ Q
 TEST(WritePdf, HasShadingsAsPatterns) {
     const std::vector<std::string> found =
         objects_by_stream(written(write_pdf, drawing_of_gradients()));
-    ASSERT_EQ(found.size(), 10U);
-    EXPECT_THAT(found[2], HasSubstr("/Pattern<</P0 7 0 R/P1 8 0 R>>"));
+    ASSERT_EQ(found.size(), 11U);
+    EXPECT_THAT(found[2], HasSubstr("/Pattern<</P0 8 0 R/P1 9 0 R>>"));
     EXPECT_EQ(inflated(found[3]), R"(q
 .0075 0 0 -.0075 0 22.5 cm
 /OC /L0 BDC
@@ -216,12 +254,12 @@ EMC
 Q
 )");
     EXPECT_EQ(
-        found[6],
+        found[7],
         "<</PatternType 2/Shading<</ShadingType 2/ColorSpace/DeviceRGB/Coords[0 0 1 0]"
         "/Extend[true true]/Function<</FunctionType 2/Domain[0 1]/C0[1 0 0]/C1[0 0 1]/N 1>>>>"
         "/Matrix[7.5 0 0 -7.5 .75 21.75]>>");
     EXPECT_EQ(
-        found[7],
+        found[8],
         "<</PatternType 2/Shading<</ShadingType 3/ColorSpace/DeviceRGB/Coords[0 0 0 0 0 1]"
         "/Extend[true true]/Function<</FunctionType 3/Domain[0 1]/Functions["
         "<</FunctionType 2/Domain[0 1]/C0[1 1 1]/C1[1 1 1]/N 1>>"
@@ -232,8 +270,8 @@ Q
 
 TEST(WritePdf, IsAWholeFileForAnEmptyDrawing) {
     const std::vector<std::string> found = objects(written(write_pdf, {}));
-    ASSERT_EQ(found.size(), 5U);
-    EXPECT_EQ(found[0], "<</Type/Catalog/Pages 2 0 R>>");
+    ASSERT_EQ(found.size(), 6U);
+    EXPECT_EQ(found[0], "<</Type/Catalog/Pages 2 0 R/Metadata 6 0 R>>");
     EXPECT_EQ(inflated(found[3]), "q\n.0075 0 0 -.0075 0 .75 cm\nQ\n");
     EXPECT_EQ(found[4], "<</Producer(VERA)>>");
 }
@@ -241,7 +279,7 @@ TEST(WritePdf, IsAWholeFileForAnEmptyDrawing) {
 TEST(WritePdf, GivesThePageASizeInMillimeters) {
     const std::vector<std::string> found =
         objects(written(write_pdf, sample_drawing(), {.page_width_millimeters = 25.4}));
-    ASSERT_EQ(found.size(), 8U);
+    ASSERT_EQ(found.size(), 9U);
     EXPECT_THAT(found[2], HasSubstr("/MediaBox[0 0 72 54]"));
     EXPECT_THAT(inflated(found[3]), HasSubstr("\n.018 0 0 -.018 0 54 cm\n"));
 }

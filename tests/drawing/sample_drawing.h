@@ -3,13 +3,19 @@
 
 #include "vera/drawing/drawing_file.h"
 
+#include <memory>
 #include <string>
 
 namespace vera {
 
+inline std::shared_ptr<const DrawingGroup> group_named(const std::string& name) {
+    return std::make_shared<const DrawingGroup>(DrawingGroup{.id = name, .name = name});
+}
+
 /// Two squares side by side, the left one with a hole, in one group; a triangle beside it; and
 /// lines of two classes.
 inline Drawing sample_drawing() {
+    const auto squares = group_named("squares");
     Drawing drawing;
     drawing.width = 40;
     drawing.height = 30;
@@ -19,11 +25,11 @@ inline Drawing sample_drawing() {
     drawing.fills = {
         {.id = "left",
          .name = "a <square>",
-         .group = "squares",
+         .group = squares,
          .color = {255, 0, 0},
          .rings = {{{1, 1}, {11, 1}, {11, 11}, {1, 11}}, {{2, 2}, {2, 3.5}, {3.254, 3.5}}},
          .seams = {{{11, 1}, {11, 11}}}},
-        {.group = "squares",
+        {.group = squares,
          .color = {18, 52, 86},
          .rings = {{{11, 1}, {21, 1}, {21, 11}, {11, 11}}}},
         {.color = {0, 0, 255}, .rings = {{{0.5, -0.25}, {0.75, 0.5}, {1.5, 0.75}}}}};

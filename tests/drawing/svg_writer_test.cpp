@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <limits>
+#include <memory>
+#include <utility>
 
 #include "drawing/sample_drawing.h"
 #include <gmock/gmock.h>
@@ -114,7 +116,7 @@ TEST(WriteSvg, LeavesNoTraceOfAGroupOfWhichNothingIsLeft) {
     Drawing drawing;
     drawing.fills = {
         {.id = "a",
-         .group = "gone",
+         .group = group_named("gone"),
          .rings = {{{0, 0}, {1, 0}, {0.5, 0.1}}},
          .seams = {{{0, 0}, {1, 0}}}}};
     drawing.strokes = {{.line_class = LineClass::hidden, .points = {{0, 0}}}};
@@ -125,11 +127,48 @@ TEST(WriteSvg, GivesEveryElementAnIdOfItsOwn) {
     Drawing drawing = sample_drawing();
     for (FilledOutline& fill : drawing.fills)
         fill.id = "fills";
-    drawing.fills[1].group = "fills";
+    drawing.fills[1].group = group_named("fills");
     const std::string text = written(write_svg, drawing);
     for (const char* id : {"fills", "fills-2", "fills-3", "fills-4", "fills-5"})
         EXPECT_THAT(text, HasSubstr("id=\"" + std::string(id) + "\"")) << id;
     EXPECT_THAT(text, HasSubstr("<g id=\"fills\" inkscape:groupmode"));
+}
+
+TEST(WriteSvg, NestsGroupsAndTellsTheirMaterials) {
+    const auto car = std::make_shared<const DrawingGroup>(DrawingGroup{.id = "car"});
+    const auto part = [&](const char* id, const char* material) {
+        return std::make_shared<const DrawingGroup>(DrawingGroup{
+            .id = id,
+            .name = "a <part>",
+            .material = std::make_shared<const DrawingMaterial>(
+                DrawingMaterial{.name = material, .css_class = "material-x"}),
+            .parent = car});
+    };
+    const auto square = [](std::shared_ptr<const DrawingGroup> group) {
+        return FilledOutline{
+            .group = std::move(group), .rings = {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}}};
+    };
+    Drawing drawing;
+    // Two that are equal are one, though they are not the same.
+    drawing.fills = {
+        square(part("hood", "red & blue")),
+        square(part("hood", "red & blue")),
+        square(part("wheel", "")),
+        square(car),
+        square(part("wheel", "")),
+        square({}),
+        square(car)};
+    const std::string path = "<path fill=\"#000\" d=\"m0 0h1v1h-1z\"/>\n";
+    const std::string wheel = " class=\"material-x\" inkscape:label=\"a &lt;part&gt;\">\n"
+                              "<title>a &lt;part&gt;</title>\n";
+    EXPECT_THAT(
+        written(write_svg, drawing),
+        HasSubstr(
+            "<g id=\"car\">\n<g id=\"hood\" class=\"material-x\" data-material=\"red &amp; blue\" "
+            "inkscape:label=\"a &lt;part&gt;\">\n<title>a &lt;part&gt;</title>\n"
+            + path + path + "</g>\n<g id=\"wheel\"" + wheel + path + "</g>\n" + path
+            + "<g id=\"wheel-2\"" + wheel + path + "</g>\n</g>\n" + path + "<g id=\"car-2\">\n"
+            + path + "</g>\n</g>\n</svg>\n"));
 }
 
 TEST(WriteSvg, PaintsClassesInTheirOrderAndThoseWithoutAStyleAnyhow) {

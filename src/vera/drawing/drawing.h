@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -75,15 +76,43 @@ struct DrawingArc {
     friend bool operator==(const DrawingArc&, const DrawingArc&) = default;
 };
 
+/// What areas are of.
+struct DrawingMaterial {
+    std::string name = {};      ///< for people
+    std::string css_class = {}; ///< that a style sheet names it by
+
+    friend bool operator==(const DrawingMaterial&, const DrawingMaterial&) = default;
+};
+
+/// What areas are part of. In an SVG an element, in other formats nothing.
+struct DrawingGroup {
+    std::string id = {};
+    std::string name = {};                                ///< for people; may be empty
+    std::shared_ptr<const DrawingMaterial> material = {}; ///< of all in it; or none
+    std::shared_ptr<const DrawingGroup> parent = {};      ///< that it is part of; or none
+};
+
+/// Whether they are equal, with all that they are part of, or none both.
+inline bool is_same_group(const DrawingGroup* a, const DrawingGroup* b) {
+    const auto have_one_material = [&] {
+        return a->material == b->material
+            || (a->material && b->material && *a->material == *b->material);
+    };
+    for (; a != b && a != nullptr && b != nullptr; a = a->parent.get(), b = b->parent.get())
+        if (a->id != b->id || a->name != b->name || !have_one_material())
+            return false;
+    return a == b;
+}
+
 /// An area of one colour or gradient, of any number of parts and holes. Its rings are closed (the
 /// first point need not be repeated), and holes run against the rings around them, so that the
 /// nonzero and the even-odd rule see the same area.
 struct FilledOutline {
     std::string id = {};   ///< of the path in an SVG; may be empty
     std::string name = {}; ///< for people: the path's title in an SVG; may be empty
-    /// What the area is part of. Consecutive outlines of one group are written as one group, which
-    /// has this for its name; outlines whose group is empty stand by themselves.
-    std::string group = {};
+    /// What the area is part of. Consecutive outlines of equal groups are written as one, and so
+    /// are groups of equal parents; outlines without a group stand by themselves.
+    std::shared_ptr<const DrawingGroup> group = {};
     DrawingColor color = {};
     std::optional<Gradient> gradient = {}; ///< in place of the colour
     std::vector<std::vector<DrawingPoint>> rings = {};

@@ -4,6 +4,7 @@
 #include "vera/base/random.h"
 #include "vera/drawing/document_text.h"
 #include "vera/drawing/page_content.h"
+#include "vera/drawing/xmp_packet.h"
 
 #include <algorithm>
 #include <array>
@@ -203,7 +204,8 @@ void write_pdf(
         layer_list =
             fmt::format("/OCProperties<</OCGs[{0}]/D<</Order[{0}]/ON[{0}]>>>>", references);
 
-    const std::size_t first_pattern = first_layer + names.size();
+    const std::size_t metadata = first_layer + names.size();
+    const std::size_t first_pattern = metadata + 1;
     std::string patterns;
     for (std::size_t i = 0; i < gradients.count(); ++i)
         patterns += fmt::format("/P{} {} 0 R", i, first_pattern + i);
@@ -217,7 +219,8 @@ void write_pdf(
         page_content(drawing, settings, lattice, drawn, gradients, marks, stages.next(1), cancel);
 
     PdfObjects objects(bytes);
-    objects.add(fmt::format("<</Type/Catalog/Pages {} 0 R{}>>", +pages, layer_list));
+    objects.add(fmt::format(
+        "<</Type/Catalog/Pages {} 0 R/Metadata {} 0 R{}>>", +pages, metadata, layer_list));
     objects.add(fmt::format("<</Type/Pages/Kids[{} 0 R]/Count 1>>", +page));
     objects.add(fmt::format(
         "<</Type/Page/Parent {} 0 R/MediaBox[0 0 {} {}]/Resources<</Properties<<{}>>{}>>"
@@ -237,6 +240,10 @@ void write_pdf(
     objects.add("<<" + texts + ">>");
     for (const std::string& name : names)
         objects.add(fmt::format("<</Type/OCG/Name{}>>", pdf_string(name)));
+    // Not packed, so that programs that do not read PDF find it as well.
+    const std::string packet = xmp_packet(drawing.title, drawing.description);
+    objects.add(fmt::format(
+        "<</Type/Metadata/Subtype/XML/Length {}>>\nstream\n{}\nendstream", packet.size(), packet));
     std::vector<std::string> packed;
     for (std::size_t i = 0; i < gradients.count(); ++i)
         packed.push_back(fmt::format(

@@ -10,7 +10,7 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <optional>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -292,7 +292,7 @@ private:
             const std::vector<FilledOutline> outlines = later.block(i, cancel_);
             write_block(filled_paths(outlines, settings_, lattice_, layers_.passed, cancel_));
         }
-        end_group();
+        go_to_group(nullptr);
         for (std::size_t first = 0; first < areas.count();) {
             tell(done + first);
             const std::size_t last = end_of_block(areas, first);
@@ -318,20 +318,29 @@ private:
         }
         const std::vector<FillData> data = fill_data(fills);
         for (std::size_t i = 0; i < fills.size(); ++i) {
-            if (!group_ || fills[i].outline->group != *group_) {
-                end_group();
-                group_ = fills[i].outline->group;
-                begin_group(*group_);
-            }
+            go_to_group(fills[i].outline->group);
             write_fill(fills[i], data[i]);
             has_seams_ = has_seams_ || !fills[i].seams.empty();
         }
         pass_on();
     }
 
-    void end_group() {
-        if (group_ && !group_->empty())
+    /// Ends the groups that this one is no part of, and begins those that it is.
+    void go_to_group(const std::shared_ptr<const DrawingGroup>& group) {
+        if (!groups_.empty() && groups_.back() == group)
+            return;
+        std::vector<std::shared_ptr<const DrawingGroup>> way; // from the outermost on
+        for (auto one = group; one; one = one->parent)
+            way.push_back(one);
+        std::reverse(way.begin(), way.end());
+        std::size_t same = 0;
+        while (same < std::min(way.size(), groups_.size())
+               && is_same_group(way[same].get(), groups_[same].get()))
+            ++same;
+        for (; groups_.size() > same; groups_.pop_back())
             text_ += "</g>\n";
+        for (; groups_.size() < way.size(); groups_.push_back(way[groups_.size()]))
+            begin_group(*way[groups_.size()]);
     }
 
     /// So few areas, and corners, that their text takes no room; one area at least.
@@ -363,12 +372,19 @@ private:
         return data;
     }
 
-    void begin_group(const std::string& group) {
-        if (group.empty())
-            return;
-        text_ +=
-            fmt::format("<g id=\"{}\" inkscape:label=\"{}\">\n", ids_.take(group), xml_text(group));
-        write_element("title", group);
+    void begin_group(const DrawingGroup& group) {
+        text_ += fmt::format("<g id=\"{}\"", ids_.take(group.id));
+        const auto add = [&](const char* attribute, const std::string& value) {
+            if (!value.empty())
+                text_ += fmt::format(" {}=\"{}\"", attribute, xml_text(value));
+        };
+        if (group.material) {
+            add("class", group.material->css_class);
+            add("data-material", group.material->name);
+        }
+        add("inkscape:label", group.name);
+        text_ += ">\n";
+        write_element("title", group.name);
     }
 
     void write_fill(const FilledPath& fill, const FillData& data) {
@@ -426,7 +442,8 @@ private:
     std::string gradients_text_;              ///< of the last ones
     std::vector<std::string> held_gradients_; ///< of those before
     bool has_seams_ = false;
-    std::optional<std::string> group_; ///< that the last outline stands in
+    /// That the last outline stands in, from the outermost on.
+    std::vector<std::shared_ptr<const DrawingGroup>> groups_;
     bool is_holding_ = false;
     bool is_held_ = false;
     std::vector<std::string> held_; ///< the fills as text, part by part

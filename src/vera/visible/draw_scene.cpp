@@ -44,6 +44,19 @@ std::vector<std::uint64_t> primitives_of(const Facets& facets, const DrawnFaces&
     return primitives;
 }
 
+/// The primitives of faces that other ones began.
+std::vector<JoinedPrimitive> joined_primitives(const Facets& facets, const DrawnFaces& faces) {
+    std::vector<JoinedPrimitive> joined;
+    for (std::size_t i = 0; i < faces.of_facet.size(); ++i) {
+        const std::uint32_t face = faces.of_facet[i];
+        const std::uint64_t primitive = facets.triangles[i].primitive;
+        if (primitive != facets.triangles[faces.first_facet[face]].primitive)
+            joined.push_back({face, primitive});
+    }
+    std::sort(joined.begin(), joined.end());
+    return joined;
+}
+
 bool has_shadows(const Scene& scene, const PictureSettings& picture, const DrawSettings& settings) {
     if (scene.lights.empty())
         return false;
@@ -212,11 +225,21 @@ ShadowCounts see_shadows(Request& request, SeenScene& seen) {
     return counts;
 }
 
-void make_faces_smooth(const Request& request, SeenScene& seen) {
-    DrawnFaces smooth =
-        drawn_faces(request.scene, seen.facets, FaceUnit::smooth, request.camera, request.cancel);
-    join_sources(seen.screen, seen.whole.pieces, seen.faces, smooth);
-    seen.faces = std::move(smooth);
+/// Numbers are of each triangle by itself.
+void join_faces(const Request& request, SeenScene& seen) {
+    if (request.is_in_numbers())
+        return;
+    DrawnFaces joined = drawn_faces(
+        request.scene,
+        seen.facets,
+        request.settings.style == DrawingStyle::shaded ? FaceUnit::smooth : FaceUnit::flat,
+        request.camera,
+        request.cancel);
+    if (joined.first_facet.size() == seen.faces.first_facet.size())
+        return;
+    join_sources(seen.screen, seen.whole.pieces, seen.faces, joined);
+    join_sources(seen.uncut, seen.faces, joined);
+    seen.faces = std::move(joined);
 }
 
 /// What a drawing is made of that was made for it alone.
@@ -311,15 +334,15 @@ DrawnScene drawn_scene(Request request) {
         drawn.lights_without_shadows = lights - std::min<std::size_t>(lights, most_lights_of_a_set);
     }
     const Progress of_map = request.next_stage(request.times.map);
-    if (settings.style == DrawingStyle::shaded)
-        make_faces_smooth(request, seen);
+    join_faces(request, seen);
     VisibleMap map = map_of(request, seen, of_map);
     drawn.visible_faces = count_seen_faces(map);
     if (settings.check)
         settings.check(
             {map,
              request.is_in_numbers() ? seen.primitives : primitives_of(seen.facets, seen.faces),
-             drawn.cut_nearness},
+             drawn.cut_nearness,
+             joined_primitives(seen.facets, seen.faces)},
             request.next_stage(request.times.check));
     drawn.drawing = painted(request, seen, std::move(map));
     request.next_stage(0); // tells that all are done

@@ -4,9 +4,12 @@
 #include "vera/base/long_loop.h"
 #include "vera/scene/surface.h"
 #include "vera/visible/convex_piece.h"
+#include "vera/visible/coplanar_patches.h"
 
 #include <array>
 #include <cstddef>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace vera {
@@ -38,13 +41,10 @@ bool is_plane(const PrimitivePath& path, std::uint32_t piece) {
 /// How the facets of a piece make faces.
 enum class Parts : std::uint8_t { one, each, by_side };
 
-Parts parts_of(const Scene& scene, const Facets::Triangle& facet, FaceUnit unit) {
-    if (unit == FaceUnit::primitive)
+Parts parts_of(const PrimitivePath& path, std::uint32_t piece, FaceUnit unit) {
+    if (is_plane(path, piece))
         return Parts::one;
-    const PrimitivePath path = path_to(scene, facet.primitive);
-    if (is_plane(path, facet.piece))
-        return Parts::one;
-    const bool sides = unit == FaceUnit::smooth && convexity(path, facet.piece) != Convexity::none;
+    const bool sides = unit == FaceUnit::smooth && convexity(path, piece) != Convexity::none;
     return sides ? Parts::by_side : Parts::each;
 }
 
@@ -59,43 +59,111 @@ bool shows_outside(const Facets& facets, const Facets::Triangle& facet, const Ca
     return dot(normal, ray) < 0;
 }
 
+namespace {
+
+/// Makes faces facet by facet.
+class FaceMaker {
+public:
+    FaceMaker(
+        const Scene& scene,
+        const Facets& facets,
+        FaceUnit unit,
+        const Camera& camera,
+        const CancelFlag* cancel)
+        : scene_(scene)
+        , facets_(facets)
+        , unit_(unit)
+        , camera_(camera)
+        , cancel_(cancel) {
+        faces_.of_facet.reserve(facets.triangles.size());
+    }
+
+    DrawnFaces make() {
+        const LongLoop loop(facets_.triangles.size(), {}, cancel_);
+        for (std::uint32_t i = 0; i < facets_.triangles.size(); ++i) {
+            loop.turn(i);
+            faces_.of_facet.push_back(face_of(i));
+        }
+        return std::move(faces_);
+    }
+
+private:
+    static constexpr std::uint32_t none = 0xffffffff;
+
+    /// That facets before this one have begun, or a new one.
+    std::uint32_t face_of(std::uint32_t i) {
+        const Facets::Triangle& facet = facets_.triangles[i];
+        const bool next_primitive = i == 0 || facet.primitive != facets_.triangles[i - 1].primitive;
+        const bool next_piece = next_primitive || facet.piece != facets_.triangles[i - 1].piece;
+        const bool next_unit = unit_ == FaceUnit::primitive ? next_primitive : next_piece;
+        // Triangles of a mesh are all alike.
+        if (next_unit && unit_ != FaceUnit::primitive && i >= end_of_mesh_)
+            begin_piece(i);
+        if (i < end_of_mesh_ && !patches_->empty())
+            if (const std::uint32_t first = first_of_mesh_ + (*patches_)[i - first_of_mesh_];
+                first < i)
+                return faces_.of_facet[first];
+        if (next_unit || parts_ == Parts::each)
+            open_ = {none, none};
+        const bool other_side = parts_ == Parts::by_side && !shows_outside(facets_, facet, camera_);
+        std::uint32_t& face = open_[other_side ? 1 : 0];
+        if (face == none) {
+            face = static_cast<std::uint32_t>(faces_.first_facet.size());
+            faces_.first_facet.push_back(i);
+        }
+        return face;
+    }
+
+    void begin_piece(std::uint32_t i) {
+        const PrimitivePath path = path_to(scene_, facets_.triangles[i].primitive);
+        parts_ = parts_of(path, facets_.triangles[i].piece, unit_);
+        const Item& item = path.geometry->items[path.element.item];
+        if (item.kind != ItemKind::mesh)
+            return;
+        const Mesh& mesh = path.geometry->meshes[item.index];
+        first_of_mesh_ = i;
+        end_of_mesh_ = i + static_cast<std::uint32_t>(mesh.triangle_count());
+        const auto [patches, is_new] = patches_of_meshes_.try_emplace(&mesh);
+        if (is_new && unit_ != FaceUnit::plane)
+            patches->second = coplanar_patches(mesh, cancel_);
+        patches_ = &patches->second;
+    }
+
+    const Scene& scene_;
+    const Facets& facets_;
+    FaceUnit unit_;
+    const Camera& camera_;
+    const CancelFlag* cancel_;
+    DrawnFaces faces_;
+    Parts parts_ = Parts::one;
+    /// The faces that further facets of the piece belong to.
+    std::array<std::uint32_t, 2> open_ = {none, none};
+    std::uint32_t first_of_mesh_ = 0;                     ///< of the facets of the last mesh
+    std::uint32_t end_of_mesh_ = 0;                       ///< behind the last of them
+    const std::vector<std::uint32_t>* patches_ = nullptr; ///< of that mesh
+    /// A mesh that subscenes bring many times is looked at once.
+    std::unordered_map<const Mesh*, std::vector<std::uint32_t>> patches_of_meshes_;
+};
+
+} // namespace
+
 DrawnFaces drawn_faces(
     const Scene& scene,
     const Facets& facets,
     FaceUnit unit,
     const Camera& camera,
     const CancelFlag* cancel) {
-    constexpr std::uint32_t none = 0xffffffff;
-    DrawnFaces faces;
-    faces.of_facet.reserve(facets.triangles.size());
-    Parts parts = Parts::one;
-    std::array<std::uint32_t, 2> open = {none, none}; // that further facets of the piece belong to
-    const LongLoop loop(facets.triangles.size(), {}, cancel);
-    for (std::size_t i = 0; i < facets.triangles.size(); ++i) {
-        loop.turn(i);
-        const Facets::Triangle& facet = facets.triangles[i];
-        const bool next_primitive = i == 0 || facet.primitive != facets.triangles[i - 1].primitive;
-        const bool next_piece = next_primitive || facet.piece != facets.triangles[i - 1].piece;
-        const bool next_unit = unit == FaceUnit::primitive ? next_primitive : next_piece;
-        if (next_unit)
-            parts = parts_of(scene, facet, unit);
-        if (next_unit || parts == Parts::each)
-            open = {none, none};
-        const bool other_side = parts == Parts::by_side && !shows_outside(facets, facet, camera);
-        std::uint32_t& face = open[other_side ? 1 : 0];
-        if (face == none) {
-            face = static_cast<std::uint32_t>(faces.first_facet.size());
-            faces.first_facet.push_back(static_cast<std::uint32_t>(i));
-        }
-        faces.of_facet.push_back(face);
-    }
-    return faces;
+    return FaceMaker(scene, facets, unit, camera, cancel).make();
+}
+
+void join_sources(ScreenScene& screen, const DrawnFaces& before, const DrawnFaces& after) {
+    for (ScreenTriangle& triangle : screen.triangles)
+        triangle.source = after.of_facet[before.first_facet[triangle.source]];
 }
 
 void join_sources(
     ScreenScene& screen, VisiblePieces& pieces, const DrawnFaces& before, const DrawnFaces& after) {
-    for (ScreenTriangle& triangle : screen.triangles)
-        triangle.source = after.of_facet[before.first_facet[triangle.source]];
+    join_sources(screen, before, after);
     const auto source = [&](std::uint32_t triangle) {
         return triangle == no_triangle ? no_source : screen.triangles[triangle].source;
     };

@@ -17,11 +17,13 @@ namespace vera {
 enum class FaceUnit : std::uint8_t {
     primitive, ///< curved ones as well
     plane,     ///< plane primitives and the plane pieces of others, and else each facet
-    smooth     ///< as plane, but of curved pieces that are convex all that shows the outside, and
+    flat,      ///< as plane, but of a mesh what hangs together in one plane: see coplanar_patches.h
+    smooth     ///< as flat, but of curved pieces that are convex all that shows the outside, and
                ///< all that shows the inside
 };
 
-/// What is told apart in a drawing, numbered in the order of the text.
+/// What is told apart in a drawing, numbered in the order of the text. The facets of a plane face
+/// (FaceUnit::plane) follow each other; those of larger ones need not.
 struct DrawnFaces {
     std::vector<std::uint32_t> of_facet;    ///< the number of each facet's face
     std::vector<std::uint32_t> first_facet; ///< of each face
@@ -39,7 +41,10 @@ DrawnFaces drawn_faces(
     const Camera& camera = {},
     const CancelFlag* cancel = nullptr);
 
-/// Makes the larger faces the sources, and leaves out the pieces that parted one of them.
+/// Makes the larger faces the sources.
+void join_sources(ScreenScene& screen, const DrawnFaces& before, const DrawnFaces& after);
+
+/// The same, and leaves out the pieces that parted one of them.
 void join_sources(
     ScreenScene& screen, VisiblePieces& pieces, const DrawnFaces& before, const DrawnFaces& after);
 

@@ -59,23 +59,37 @@ bool is_curved(const Scene& scene, std::uint64_t primitive) {
     return kind == ItemKind::sphere || kind == ItemKind::rotational_shape;
 }
 
+/// Where the ray first meets what the map shows: any of the source's primitives.
+Hit hit_of_source(const Comparison& all, const Ray& ray, std::uint32_t source) {
+    if (source == no_source)
+        return {};
+    Hit nearest = primitive_hit(all.scene, ray, all.drawn.primitives[source]);
+    const auto& joined = all.drawn.joined;
+    auto other = std::lower_bound(joined.begin(), joined.end(), JoinedPrimitive{source, 0});
+    for (; other != joined.end() && other->source == source; ++other)
+        if (const Hit hit = primitive_hit(all.scene, ray, other->primitive); hit.t < nearest.t)
+            nearest = hit;
+    return nearest;
+}
+
 /// How far the two surfaces are from each other where the ray meets them, across the one that it
 /// meets more steeply; infinite where it meets one of them alone.
-double gap(const Scene& scene, const Ray& ray, const Hit& traced, std::uint64_t drawn) {
-    if (!traced.found() || drawn == no_primitive)
-        return std::numeric_limits<double>::infinity();
-    const Hit other = primitive_hit(scene, ray, drawn);
-    if (!other.found())
+double gap(const Scene& scene, const Ray& ray, const Hit& traced, const Hit& drawn) {
+    if (!traced.found() || !drawn.found())
         return std::numeric_limits<double>::infinity();
     const auto across = [&](const Hit& hit) {
         return std::abs(dot(surface_at(scene, ray, hit).geometric_normal, ray.direction));
     };
-    return std::abs(other.t - traced.t) * std::min(across(traced), across(other));
+    return std::abs(drawn.t - traced.t) * std::min(across(traced), across(drawn));
 }
 
 /// Whether the grid and the facets explain the difference.
 bool is_explained(
-    const Comparison& all, const MapDifference& difference, const Ray& ray, const Hit& traced) {
+    const Comparison& all,
+    const MapDifference& difference,
+    std::uint32_t source,
+    const Ray& ray,
+    const Hit& traced) {
     const MapCheckSettings& settings = all.settings;
     const bool has_facets =
         is_curved(all.scene, difference.drawn) || is_curved(all.scene, difference.traced);
@@ -88,12 +102,25 @@ bool is_explained(
             reach * steps_across,
             reach * steps_down))
         return true;
-    const double apart = gap(all.scene, ray, traced, difference.drawn);
-    if (!difference.is_sound || !std::isfinite(apart))
+    if (!difference.is_sound)
+        return false;
+    const double apart = gap(all.scene, ray, traced, hit_of_source(all, ray, source));
+    if (!std::isfinite(apart))
         return false;
     const double pixel =
         all.camera_map.size_of_pixel(settings.width, settings.height, point_at(ray, traced.t));
     return apart <= reach * pixel;
+}
+
+/// What the map shows where it shows the source: the one of its primitives that the ray met, if
+/// that is one of them.
+std::uint64_t primitive_at(const Comparison& all, std::uint32_t source, std::uint64_t traced) {
+    if (source == no_source)
+        return no_primitive;
+    const auto& joined = all.drawn.joined;
+    return std::binary_search(joined.begin(), joined.end(), JoinedPrimitive{source, traced})
+        ? traced
+        : all.drawn.primitives[source];
 }
 
 void compare(const Comparison& all, std::uint64_t number, QueryCounts& counts, MapCheck& result) {
@@ -106,12 +133,12 @@ void compare(const Comparison& all, std::uint64_t number, QueryCounts& counts, M
     const MapDifference difference = {
         x * all.settings.width,
         y * all.settings.height,
-        shown.source == no_source ? no_primitive : all.drawn.primitives[shown.source],
+        primitive_at(all, shown.source, traced[0].face.primitive),
         traced[0].face.primitive,
         shown.is_sound};
     if (shown.is_sound && difference.drawn == difference.traced)
         return;
-    if (is_explained(all, difference, ray[0].ray, traced[0])) {
+    if (is_explained(all, difference, shown.source, ray[0].ray, traced[0])) {
         ++result.near;
         return;
     }
@@ -145,10 +172,11 @@ MapCheck check_map(
     parallel_ranges(parts.size(), 1, [&](std::size_t first, std::size_t last) {
         QueryCounts counts;
         for (std::size_t i = first; i < last; ++i) {
-            stop_if_raised(cancel);
             const std::size_t end = std::min(settings.points, (i + 1) * part);
-            for (std::size_t point = i * part; point < end; ++point)
+            for (std::size_t point = i * part; point < end; ++point) {
+                stop_if_raised(cancel); // what shows a face of many primitives may take long
                 compare(all, point, counts, parts[i]);
+            }
         }
         const std::lock_guard lock(mutex);
         done += last - first;

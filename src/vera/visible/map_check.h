@@ -15,11 +15,20 @@
 
 namespace vera {
 
+/// A primitive of a source that has several.
+struct JoinedPrimitive {
+    std::uint32_t source = 0;
+    std::uint64_t primitive = 0;
+
+    friend auto operator<=>(const JoinedPrimitive&, const JoinedPrimitive&) = default;
+};
+
 /// A map of what is seen of a scene, and which primitives its sources are.
 struct PrimitiveMap {
     const VisibleMap& map;
-    std::vector<std::uint64_t> primitives; ///< of each source
-    double cut_nearness = 0;               ///< as in ScreenScene
+    std::vector<std::uint64_t> primitives;    ///< of each source, the first
+    double cut_nearness = 0;                  ///< as in ScreenScene
+    std::vector<JoinedPrimitive> joined = {}; ///< the others, sorted
 };
 
 struct MapCheckSettings {

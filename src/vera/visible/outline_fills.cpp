@@ -3,10 +3,9 @@
 
 #include "vera/base/long_loop.h"
 #include "vera/base/progress_part.h"
-#include "vera/scene/item_names.h"
-#include "vera/scene/surface.h"
 #include "vera/visible/drawn_borders.h"
 #include "vera/visible/face_color.h"
+#include "vera/visible/object_groups.h"
 #include "vera/visible/region_outlines.h"
 #include "vera/visible/shaded_outlines.h"
 #include "vera/visible/shaded_underlays.h"
@@ -27,16 +26,6 @@
 namespace vera {
 
 namespace {
-
-/// Of the item that holds the primitive: what it is, and where it was written.
-std::string group_name(const Scene& scene, std::uint64_t primitive) {
-    const PrimitivePath path = path_to(scene, primitive);
-    const Item& item = path.geometry->items[path.element.item];
-    std::string name = name_of(item.kind);
-    if (!path.geometry->name.empty())
-        name += " of " + path.geometry->name;
-    return item.line == 0 ? name : name + ", line " + std::to_string(item.line);
-}
 
 std::vector<DrawingColor> colors_of(
     const FillSources& sources,
@@ -62,14 +51,20 @@ public:
         Drawing& drawing)
         : kept_(std::move(kept))
         , sources_(sources)
+        , materials_(drawing_materials(sources.scene))
         , regions_(sources.map, curved_borders(sources, stages.next(1), cancel)) {
         if (is_shaded())
             start_shaded(stages, cancel, drawing);
         else
             start_flat(stages, cancel, drawing);
         primitives_.reserve(regions_.count());
-        for (std::size_t i = 0; i < regions_.count(); ++i)
+        ObjectGroups groups(sources.scene, materials_);
+        for (std::size_t i = 0; i < regions_.count(); ++i) {
+            if (i % block_size == 0)
+                groups_of_blocks_.push_back(groups);
             primitives_.push_back(sources.facets.triangles[facet_of(i)].primitive);
+            groups.of(primitives_.back());
+        }
         find_seams(stages.next(1), cancel);
         stages.next(0);
     }
@@ -136,11 +131,25 @@ private:
         return is_shaded() ? shaded(numbers, cancel) : flat(numbers, cancel);
     }
 
+    /// Of regions of one block, in their order.
+    std::vector<std::shared_ptr<const DrawingGroup>>
+    groups_of(std::span<const std::uint32_t> numbers) const {
+        std::vector<std::shared_ptr<const DrawingGroup>> groups;
+        if (numbers.empty())
+            return groups;
+        ObjectGroups of_block = groups_of_blocks_[numbers.front() / block_size];
+        groups.reserve(numbers.size());
+        for (const std::uint32_t number : numbers)
+            groups.push_back(of_block.of(primitives_[number]));
+        return groups;
+    }
+
     std::vector<FilledOutline>
     flat(std::span<const std::uint32_t> numbers, const CancelFlag* cancel) const {
         std::vector<FilledOutline> fills(numbers.size());
+        const auto groups = groups_of(numbers);
         long_parallel_loop(numbers.size(), {}, cancel, 64, [&](std::size_t i) {
-            PaintedRegion region = named(numbers[i]);
+            PaintedRegion region = named(numbers[i], groups[i]);
             region.outline.color = colors_[numbers[i]];
             cover_seams(regions_, widths_, colors_, numbers[i], region);
             add_rings(region, regions_.curves().all());
@@ -153,9 +162,10 @@ private:
     std::vector<FilledOutline>
     shaded(std::span<const std::uint32_t> numbers, const CancelFlag* cancel) const {
         std::vector<LitOutline> lit(numbers.size());
+        const auto groups = groups_of(numbers);
         long_parallel_loop(numbers.size(), {}, cancel, 64, [&](std::size_t i) {
             const std::uint32_t number = numbers[i];
-            PaintedRegion region = named(number);
+            PaintedRegion region = named(number, groups[i]);
             cover_seams_closely(regions_, number, region);
             lit[i] = {std::move(region), facet_of(number), ~sources_.map.regions[number].unlit};
         });
@@ -172,22 +182,23 @@ private:
     }
 
     /// The region with its rings, and the id and group of what it shows.
-    PaintedRegion named(std::size_t number) const {
-        const std::uint64_t primitive = primitives_[number];
+    PaintedRegion named(std::size_t number, std::shared_ptr<const DrawingGroup> group) const {
         PaintedRegion region;
         region.rings = regions_.borders(number);
-        region.outline.id = "face-" + std::to_string(primitive + 1);
-        region.outline.group = group_name(sources_.scene, primitive);
+        region.outline.id = "face-" + std::to_string(primitives_[number] + 1);
+        region.outline.group = std::move(group);
         return region;
     }
 
     std::shared_ptr<const void> kept_; ///< what the sources refer to, where nobody else keeps it
     FillSources sources_;
+    std::vector<std::shared_ptr<const DrawingMaterial>> materials_;
     RegionOutlines regions_;
-    std::vector<std::uint64_t> primitives_; ///< of the regions
-    std::vector<float> widths_;             ///< of the regions; of areas in one colour each
-    std::vector<DrawingColor> colors_;      ///< likewise
-    std::vector<std::uint32_t> with_seams_; ///< regions
+    std::vector<std::uint64_t> primitives_;      ///< of the regions
+    std::vector<ObjectGroups> groups_of_blocks_; ///< as they were before each
+    std::vector<float> widths_;                  ///< of the regions; of areas in one colour each
+    std::vector<DrawingColor> colors_;           ///< likewise
+    std::vector<std::uint32_t> with_seams_;      ///< regions
 };
 
 } // namespace

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <memory>
 #include <span>
 #include <utility>
 
@@ -76,7 +77,9 @@ DrawnFirmament drawn_firmament(
     const HalfPlane above = above_horizon(camera, picture);
     const HalfPlane below = {{-above.normal.x, -above.normal.y}, -above.reach};
     PaintedRegion region;
-    region.outline.id = region.outline.group = "sky";
+    region.outline.id = "sky";
+    region.outline.group =
+        std::make_shared<const DrawingGroup>(DrawingGroup{.id = "sky", .name = "sky"});
     region.rings = firmament.profile ? sky_outline(camera, *firmament.profile, width, height)
                                      : cut_rings(frame, above);
     const bool shows_earth = firmament.profile ? !is_whole(region.rings, frame.front())

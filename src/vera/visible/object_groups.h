@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the areas of a drawing are part of, as whoever edits it asks for: the objects of the scene,
+// what they consist of, and the material of each.
+#pragma once
+
+#include "vera/drawing/drawing.h"
+#include "vera/scene/scene.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace vera {
+
+/// Of each material of a scene, in their order: what it is called ("material-2" where the scene
+/// gives the second one no name), and the class of its groups, which no other has and CSS can name
+/// without escapes: "material-" and the name.
+std::vector<std::shared_ptr<const DrawingMaterial>> drawing_materials(const Scene& scene);
+
+/// Gives the groups of primitives in ascending order. An object is a statement of the main scene:
+/// its id is "object-" and the number of its first primitive, from 1, seen or not. In a call of a
+/// subscene, statements of it are groups within: "part-" and the number of the first primitive. The
+/// same statement with the same material is one of them as long as nothing else comes between, as
+/// where a call is repeated: its id is of the first that is asked for. So an id never names another
+/// thing in another view. Statements of the main scene that stand in no text, as programs make
+/// them, are one object while they are of one kind and material. A copy goes on from where it was
+/// copied. Refers to the scene and its materials.
+class ObjectGroups {
+public:
+    ObjectGroups(
+        const Scene& scene, const std::vector<std::shared_ptr<const DrawingMaterial>>& materials)
+        : scene_(&scene)
+        , materials_(&materials) {}
+
+    std::shared_ptr<const DrawingGroup> of(std::uint64_t primitive);
+
+private:
+    /// Of primitives that follow each other.
+    struct Run {
+        std::uint64_t first = 0;
+        std::uint64_t end = 0;
+
+        bool contains(std::uint64_t primitive) const {
+            return primitive >= first && primitive < end;
+        }
+    };
+
+    void begin_statement(std::uint64_t primitive);
+    void begin_object(std::uint64_t primitive);
+    bool is_one_with_last(const Item& item, MaterialId material, bool is_other_object) const;
+
+    const Scene* scene_;
+    const std::vector<std::shared_ptr<const DrawingMaterial>>* materials_;
+    Run object_;
+    Run statement_;              ///< where it is called this time
+    const Item* item_ = nullptr; ///< the statement
+    MaterialId material_ = inherited_material;
+    std::shared_ptr<const DrawingGroup> object_group_; ///< where it is a call
+    std::shared_ptr<const DrawingGroup> group_;
+};
+
+} // namespace vera

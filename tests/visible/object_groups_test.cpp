@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+// What faces are part of, in names: objects of the main scene, what is in them, and its material.
+#include "vera/drawing/drawing_file.h"
+#include "vera/scene/surface.h"
+#include "vera/visible/draw_scene.h"
+#include "vera/visible/object_groups.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "accel/random_scene.h"
+#include "visible/cameras.h"
+#include <gtest/gtest.h>
+
+namespace vera {
+namespace {
+
+/// "object-3 [ball, line 4] red > part-5 [...] ...", from the outermost on.
+std::string text_of(const DrawingGroup* group) {
+    std::string text;
+    for (; group != nullptr; group = group->parent.get()) {
+        std::string one = group->id + " [" + group->name + "]";
+        if (group->material)
+            one += " " + group->material->name + " ." + group->material->css_class;
+        text = text.empty() ? one : one + " > " + text;
+    }
+    return text;
+}
+
+Item item(ItemKind kind, std::uint32_t line, MaterialId material = inherited_material) {
+    Item made;
+    made.kind = kind;
+    made.line = line;
+    made.material = material;
+    return made;
+}
+
+/// A sphere, a mesh of two triangles, and twice a pair of a sphere of the caller's material and a
+/// green one.
+Scene scene_of_pairs() {
+    Scene scene;
+    for (const char* name : {"red", "", "a.b c", "a-b c"})
+        scene.materials.emplace_back().name = name;
+    Geometry& pair = scene.subscenes.emplace_back();
+    pair.name = "pair";
+    pair.spheres.resize(2);
+    pair.items = {item(ItemKind::sphere, 2), item(ItemKind::sphere, 3, MaterialId{2})};
+    pair.items[1].index = 1;
+    Geometry& main = scene.geometry;
+    main.spheres.resize(1);
+    Mesh& mesh = main.meshes.emplace_back();
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
+    mesh.position_indices = {0, 1, 2, 1, 3, 2};
+    main.calls.resize(2);
+    main.items = {
+        item(ItemKind::sphere, 6),
+        item(ItemKind::mesh, 7, MaterialId{0}),
+        item(ItemKind::subscene_call, 8, MaterialId{1}),
+        item(ItemKind::subscene_call, 9, MaterialId{3})};
+    main.items[3].index = 1;
+    number_primitives(scene);
+    return scene;
+}
+
+TEST(ObjectGroups, AreStatementsOfTheMainSceneAndWhatTheyCall) {
+    const Scene scene = scene_of_pairs();
+    const auto materials = drawing_materials(scene);
+    ObjectGroups groups(scene, materials);
+    const std::vector<std::string> expected = {
+        "object-1 [sphere, line 6]",
+        "object-2 [mesh, line 7] red .material-red",
+        "object-2 [mesh, line 7] red .material-red",
+        "object-4 [pair, line 8] > part-4 [sphere of pair, line 2] material-2 .material-2",
+        "object-4 [pair, line 8] > part-5 [sphere of pair, line 3] a.b c .material-a-b-c",
+        "object-6 [pair, line 9] > part-6 [sphere of pair, line 2] a-b c .material-a-b-c-2",
+        "object-6 [pair, line 9] > part-7 [sphere of pair, line 3] a.b c .material-a-b-c"};
+    for (std::uint64_t i = 0; i < expected.size(); ++i)
+        EXPECT_EQ(text_of(groups.of(i).get()), expected[i]) << i;
+}
+
+TEST(ObjectGroups, KeepTheirIdsWhereSomethingIsNotSeen) {
+    const Scene scene = scene_of_pairs();
+    const auto materials = drawing_materials(scene);
+    ObjectGroups groups(scene, materials);
+    EXPECT_EQ(text_of(groups.of(2).get()), "object-2 [mesh, line 7] red .material-red");
+    EXPECT_EQ(
+        text_of(groups.of(6).get()),
+        "object-6 [pair, line 9] > part-7 [sphere of pair, line 3] a.b c .material-a-b-c");
+}
+
+TEST(ObjectGroups, OfAStatementThatIsCalledAgainAndAgainAreOne) {
+    Scene scene;
+    scene.subscenes.resize(2);
+    Geometry& leaf = scene.subscenes[0];
+    leaf.name = "leaf";
+    leaf.spheres.resize(1);
+    leaf.items = {item(ItemKind::sphere, 2)};
+    Geometry& tree = scene.subscenes[1];
+    tree.name = "tree";
+    for (std::uint32_t i = 0; i < 3; ++i) {
+        tree.calls.emplace_back().subscene = SubsceneId{0};
+        tree.items.push_back(item(ItemKind::subscene_call, 4));
+        tree.items.back().index = i;
+    }
+    scene.geometry.calls.emplace_back().subscene = SubsceneId{1};
+    scene.geometry.items = {item(ItemKind::subscene_call, 7)};
+    number_primitives(scene);
+    const auto materials = drawing_materials(scene);
+    ObjectGroups groups(scene, materials);
+    const auto first = groups.of(0);
+    EXPECT_EQ(text_of(first.get()), "object-1 [tree, line 7] > part-1 [sphere of leaf, line 2]");
+    EXPECT_EQ(groups.of(1), first);
+    ObjectGroups copy = groups;
+    EXPECT_EQ(copy.of(2), first);
+}
+
+TEST(ObjectGroups, OfStatementsThatStandInNoTextAreOneOfAKindAndMaterial) {
+    Scene scene;
+    scene.materials.resize(1);
+    scene.geometry.spheres.resize(4);
+    for (const std::uint32_t line : {0U, 0U, 0U, 7U})
+        scene.geometry.items.push_back(item(ItemKind::sphere, line));
+    scene.geometry.items[2].material = MaterialId{0};
+    number_primitives(scene);
+    const auto materials = drawing_materials(scene);
+    ObjectGroups groups(scene, materials);
+    const std::vector<std::string> expected = {
+        "object-1 [sphere]",
+        "object-1 [sphere]",
+        "object-3 [sphere] material-1 .material-1",
+        "object-4 [sphere, line 7]"};
+    for (std::uint64_t i = 0; i < expected.size(); ++i)
+        EXPECT_EQ(text_of(groups.of(i).get()), expected[i]) << i;
+}
+
+/// Of random scenes, in which subscenes are called by others, every face stands in the groups that
+/// the way to it in the scene tells; and no id is there twice.
+TEST(ObjectGroups, OfDrawingsAreThoseOfTheWaysToTheirFaces) {
+    std::size_t nested = 0;
+    for (int number = 0; number < 6; ++number) {
+        testing::RandomSceneSettings random;
+        random.items = 14;
+        random.curved = number % 2 == 0;
+        const Scene scene = testing::random_scene(static_cast<std::uint64_t>(number), random);
+        PictureSettings picture;
+        picture.width = picture.height = 100;
+        DrawSettings settings;
+        settings.deviation = 1;
+        const Drawing drawing =
+            draw_scene(scene, testing::camera_number(number), picture, settings).drawing;
+        std::map<std::string, std::string> ids; // of groups, and all that they tell
+        std::set<std::string> closed;
+        std::string open;
+        for (const FilledOutline& fill : drawing.fills) {
+            if (!fill.id.starts_with("face-"))
+                continue;
+            const PrimitivePath path = path_to(scene, std::stoull(fill.id.substr(5)) - 1);
+            ASSERT_TRUE(fill.group);
+            EXPECT_EQ(fill.group->parent != nullptr, !path.in_main_scene);
+            EXPECT_EQ(fill.group->id.starts_with("part-"), !path.in_main_scene);
+            nested += path.in_main_scene ? 0 : 1;
+            EXPECT_EQ(
+                fill.group->material ? fill.group->material->name : "",
+                path.material == inherited_material
+                    ? ""
+                    : "material-" + std::to_string(static_cast<std::size_t>(path.material) + 1));
+            const std::uint32_t line = path.geometry->items[path.element.item].line;
+            EXPECT_TRUE(line == 0 || fill.group->name.ends_with("line " + std::to_string(line)));
+            // Each id is of one group, which does not begin again once another has.
+            const std::string text = text_of(fill.group.get());
+            EXPECT_EQ(ids.try_emplace(fill.group->id, text).first->second, text);
+            if (fill.group->id != open) {
+                closed.insert(open);
+                EXPECT_FALSE(closed.contains(fill.group->id)) << fill.group->id;
+                open = fill.group->id;
+            }
+        }
+    }
+    EXPECT_GT(nested, 50U);
+}
+
+} // namespace
+} // namespace vera
