@@ -123,18 +123,22 @@ bool is_plane(const Geometry& geometry, Element element) {
     return false;
 }
 
+/// take_crossing() where the nearest face is looked for.
+inline bool take_nearest(PacketQuery& query, std::size_t lane, double t, FaceId face) {
+    NearestSearch& search = query.nearest[lane];
+    search.add(t, face);
+    if (!(search.limit() < query.limit[lane]))
+        return false;
+    query.limit[lane] = search.limit();
+    return true;
+}
+
 /// Notes what a crossing means; true when the lane's limit or its being active has changed.
 bool take_crossing(
     PacketQuery& query, std::size_t lane, double t, FaceId face, MaterialId material) {
     switch (query.purpose) {
-    case Purpose::nearest: {
-        NearestSearch& search = query.nearest[lane];
-        search.add(t, face);
-        if (!(search.limit() < query.limit[lane]))
-            return false;
-        query.limit[lane] = search.limit();
-        return true;
-    }
+    case Purpose::nearest:
+        return take_nearest(query, lane, t, face);
     case Purpose::window:
         query.window[lane].add(t, face);
         return false;
@@ -347,12 +351,17 @@ void take_crossings(
     const ElementRow& elements,
     const RayRows::Row& t) {
     const Geometry& geometry = *frame.local->geometry;
+    const bool nearest = query.purpose == Purpose::nearest;
     for (LaneMask rest = met; rest != 0; rest &= rest - 1) {
         const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
         const std::uint32_t element = elements[lane];
         const std::uint64_t number = frame.first_primitive
             + (geometry.calls.empty() ? element
                                       : primitive_number(geometry, element_at(geometry, element)));
+        if (nearest) {
+            query.changes += take_nearest(query, lane, t[lane], {number, 0}) ? 1 : 0;
+            continue;
+        }
         const MaterialId material = query.purpose == Purpose::transmittance
             ? material_at(geometry, frame, element)
             : inherited_material; // which does not count
