@@ -474,44 +474,24 @@ LaneMask lanes_of(std::uint32_t element, LaneMask lanes, const ElementRow& eleme
     return same;
 }
 
-/// The way in which an element's crossings with a ray are decided.
-enum class Decision : std::uint8_t { triangle, quadrangle, sphere, mantle, by_itself };
-
-Decision decision_of(ElementRecord::Kind kind) {
-    switch (kind) {
-    case ElementRecord::Kind::triangle:
-        return Decision::triangle;
-    case ElementRecord::Kind::quadrangle:
-        return Decision::quadrangle;
-    case ElementRecord::Kind::sphere:
-        return Decision::sphere;
-    case ElementRecord::Kind::mantle:
-        return Decision::mantle;
-    default:
-        break;
-    }
-    return Decision::by_itself;
-}
-
 } // namespace
 
 void decide(PacketQuery& query, Frame& frame, LaneMask lanes) {
     Candidates& candidates = frame.candidates;
     while (candidates.count > 0) {
-        ElementRow elements; // their numbers, at first
-        const LaneMask taken = take_candidates(frame, lanes & query.active, elements);
+        TakenCandidates candidate_of;
+        const LaneMask taken = take_candidates(frame, lanes & query.active, candidate_of);
         if (taken == 0)
             break;
-        std::array<LaneMask, 5> by_decision = {};
-        for (LaneMask rest = taken; rest != 0; rest &= rest - 1) {
-            const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-            const Candidates::Candidate& candidate = candidates.all[elements[lane]];
-            elements[lane] = candidate.element;
-            by_decision[static_cast<std::size_t>(decision_of(candidate.kind))] |= LaneMask{1}
-                << lane;
-        }
-        const auto [triangles, quadrangles, spheres, mantles, others] = by_decision;
-        for (LaneMask rest = others; rest != 0;) {
+        const ElementRow& elements = candidate_of.elements;
+        const auto of_kind = [&](ElementRecord::Kind kind) {
+            return candidate_of.of_kind[static_cast<std::size_t>(kind)];
+        };
+        const LaneMask triangles = of_kind(ElementRecord::Kind::triangle);
+        const LaneMask quadrangles = of_kind(ElementRecord::Kind::quadrangle);
+        const LaneMask spheres = of_kind(ElementRecord::Kind::sphere);
+        const LaneMask mantles = of_kind(ElementRecord::Kind::mantle);
+        for (LaneMask rest = taken & ~(triangles | quadrangles | spheres | mantles); rest != 0;) {
             const std::uint32_t element =
                 elements[static_cast<std::size_t>(std::countr_zero(rest))];
             const LaneMask same = lanes_of(element, rest, elements);
