@@ -21,7 +21,7 @@ cross_triangles(const Frame& frame, LaneMask lanes, const TriangleRows& triangle
 
 /// An element for each of some lanes.
 struct TakenCandidates {
-    std::array<std::uint32_t, packet_size> elements;   ///< their numbers
+    std::array<std::uint32_t, packet_size> elements;  ///< their numbers
     std::array<LaneMask, element_kinds> of_kind = {}; ///< the lanes whose elements are of each kind
 };
 

@@ -26,8 +26,8 @@ namespace {
     throw std::runtime_error(problem + "; make it smaller or choose a format of 8 bits");
 }
 
-/// Zeros, for which the system is asked for large pages before they are written: it gives these many
-/// times as fast.
+/// Zeros, for which the system is asked for large pages before they are written: it gives these
+/// many times as fast.
 template <typename Sample>
 std::vector<Sample> black_samples(std::size_t count) {
     std::vector<Sample> samples;

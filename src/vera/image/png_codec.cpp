@@ -133,7 +133,8 @@ struct Rows {
 };
 
 /// How much the bytes differ from others, each by itself.
-std::uint64_t difference(const unsigned char* bytes, const unsigned char* others, std::size_t size) {
+std::uint64_t
+difference(const unsigned char* bytes, const unsigned char* others, std::size_t size) {
     std::uint64_t sum = 0;
     constexpr std::size_t part = std::size_t{1} << 16; // of which the sum fits into 32 bits
     for (std::size_t first = 0; first < size; first += part) {
