@@ -4,6 +4,7 @@
 #include "vera/accel/local_geometry.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace vera::detail {
@@ -26,6 +27,8 @@ struct ElementRecord {
     std::array<float, 11> values = {};
     Kind kind = Kind::box;
 };
+
+constexpr std::size_t element_kinds = static_cast<std::size_t>(ElementRecord::Kind::call) + 1;
 
 /// The record of an element that lies within the box; both in local coordinates.
 ElementRecord element_record(const LocalGeometry& local, Element element, const Box3& local_box);

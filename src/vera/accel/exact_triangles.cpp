@@ -137,9 +137,9 @@ LaneMask cross_triangles_kernel(
     return met & lanes;
 }
 
-LaneMask take_candidates_kernel(
-    Frame& frame, LaneMask lanes, std::array<std::uint32_t, packet_size>& numbers) {
+LaneMask take_candidates_kernel(Frame& frame, LaneMask lanes, TakenCandidates& result) {
     const hn::CappedTag<float, packet_size> d;
+    const hn::RebindToUnsigned<decltype(d)> d_elements;
     Candidates& candidates = frame.candidates;
     LaneMask taken = 0;
     for (std::size_t i = 0; i < candidates.count && taken != lanes; ++i) {
@@ -161,9 +161,17 @@ LaneMask take_candidates_kernel(
         }
         wanted &= ~behind;
         taken |= wanted;
-        for (; wanted != 0; wanted &= wanted - 1)
-            numbers[static_cast<std::size_t>(std::countr_zero(wanted))] =
-                static_cast<std::uint32_t>(i);
+        result.of_kind[static_cast<std::size_t>(candidates.all[i].kind)] |= wanted;
+        for (std::size_t lane = 0; lane < packet_size; lane += hn::Lanes(d)) {
+            const std::uint8_t bytes[8] = {
+                static_cast<std::uint8_t>(wanted >> lane),
+                static_cast<std::uint8_t>(wanted >> lane >> 8U)};
+            hn::BlendedStore(
+                hn::Set(d_elements, candidates.all[i].element),
+                hn::LoadMaskBits(d_elements, bytes),
+                d_elements,
+                result.elements.data() + lane);
+        }
     }
     return taken;
 }
@@ -189,9 +197,8 @@ LaneMask cross_triangles(
     return HWY_DYNAMIC_DISPATCH(cross_triangles_kernel)(frame, lanes, triangles, t);
 }
 
-LaneMask
-take_candidates(Frame& frame, LaneMask lanes, std::array<std::uint32_t, packet_size>& numbers) {
-    return HWY_DYNAMIC_DISPATCH(take_candidates_kernel)(frame, lanes, numbers);
+LaneMask take_candidates(Frame& frame, LaneMask lanes, TakenCandidates& taken) {
+    return HWY_DYNAMIC_DISPATCH(take_candidates_kernel)(frame, lanes, taken);
 }
 
 } // namespace vera::detail

@@ -19,9 +19,14 @@ void prepare_rays(Frame& frame);
 LaneMask
 cross_triangles(const Frame& frame, LaneMask lanes, const TriangleRows& triangles, RayRows::Row& t);
 
+/// An element for each of some lanes.
+struct TakenCandidates {
+    std::array<std::uint32_t, packet_size> elements;  ///< their numbers
+    std::array<LaneMask, element_kinds> of_kind = {}; ///< the lanes whose elements are of each kind
+};
+
 /// Takes the next candidate of each of the lanes that has one before its limit out of the frame's
-/// candidates: its number among them. Returns those lanes.
-LaneMask
-take_candidates(Frame& frame, LaneMask lanes, std::array<std::uint32_t, packet_size>& numbers);
+/// candidates. Returns those lanes.
+LaneMask take_candidates(Frame& frame, LaneMask lanes, TakenCandidates& taken);
 
 } // namespace vera::detail

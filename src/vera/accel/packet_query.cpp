@@ -123,18 +123,22 @@ bool is_plane(const Geometry& geometry, Element element) {
     return false;
 }
 
+/// take_crossing() where the nearest face is looked for.
+inline bool take_nearest(PacketQuery& query, std::size_t lane, double t, FaceId face) {
+    NearestSearch& search = query.nearest[lane];
+    search.add(t, face);
+    if (!(search.limit() < query.limit[lane]))
+        return false;
+    query.limit[lane] = search.limit();
+    return true;
+}
+
 /// Notes what a crossing means; true when the lane's limit or its being active has changed.
 bool take_crossing(
     PacketQuery& query, std::size_t lane, double t, FaceId face, MaterialId material) {
     switch (query.purpose) {
-    case Purpose::nearest: {
-        NearestSearch& search = query.nearest[lane];
-        search.add(t, face);
-        if (!(search.limit() < query.limit[lane]))
-            return false;
-        query.limit[lane] = search.limit();
-        return true;
-    }
+    case Purpose::nearest:
+        return take_nearest(query, lane, t, face);
     case Purpose::window:
         query.window[lane].add(t, face);
         return false;
@@ -347,12 +351,17 @@ void take_crossings(
     const ElementRow& elements,
     const RayRows::Row& t) {
     const Geometry& geometry = *frame.local->geometry;
+    const bool nearest = query.purpose == Purpose::nearest;
     for (LaneMask rest = met; rest != 0; rest &= rest - 1) {
         const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
         const std::uint32_t element = elements[lane];
         const std::uint64_t number = frame.first_primitive
             + (geometry.calls.empty() ? element
                                       : primitive_number(geometry, element_at(geometry, element)));
+        if (nearest) {
+            query.changes += take_nearest(query, lane, t[lane], {number, 0}) ? 1 : 0;
+            continue;
+        }
         const MaterialId material = query.purpose == Purpose::transmittance
             ? material_at(geometry, frame, element)
             : inherited_material; // which does not count
@@ -465,44 +474,24 @@ LaneMask lanes_of(std::uint32_t element, LaneMask lanes, const ElementRow& eleme
     return same;
 }
 
-/// The way in which an element's crossings with a ray are decided.
-enum class Decision : std::uint8_t { triangle, quadrangle, sphere, mantle, by_itself };
-
-Decision decision_of(ElementRecord::Kind kind) {
-    switch (kind) {
-    case ElementRecord::Kind::triangle:
-        return Decision::triangle;
-    case ElementRecord::Kind::quadrangle:
-        return Decision::quadrangle;
-    case ElementRecord::Kind::sphere:
-        return Decision::sphere;
-    case ElementRecord::Kind::mantle:
-        return Decision::mantle;
-    default:
-        break;
-    }
-    return Decision::by_itself;
-}
-
 } // namespace
 
 void decide(PacketQuery& query, Frame& frame, LaneMask lanes) {
     Candidates& candidates = frame.candidates;
     while (candidates.count > 0) {
-        ElementRow elements; // their numbers, at first
-        const LaneMask taken = take_candidates(frame, lanes & query.active, elements);
+        TakenCandidates candidate_of;
+        const LaneMask taken = take_candidates(frame, lanes & query.active, candidate_of);
         if (taken == 0)
             break;
-        std::array<LaneMask, 5> by_decision = {};
-        for (LaneMask rest = taken; rest != 0; rest &= rest - 1) {
-            const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-            const Candidates::Candidate& candidate = candidates.all[elements[lane]];
-            elements[lane] = candidate.element;
-            by_decision[static_cast<std::size_t>(decision_of(candidate.kind))] |= LaneMask{1}
-                << lane;
-        }
-        const auto [triangles, quadrangles, spheres, mantles, others] = by_decision;
-        for (LaneMask rest = others; rest != 0;) {
+        const ElementRow& elements = candidate_of.elements;
+        const auto of_kind = [&](ElementRecord::Kind kind) {
+            return candidate_of.of_kind[static_cast<std::size_t>(kind)];
+        };
+        const LaneMask triangles = of_kind(ElementRecord::Kind::triangle);
+        const LaneMask quadrangles = of_kind(ElementRecord::Kind::quadrangle);
+        const LaneMask spheres = of_kind(ElementRecord::Kind::sphere);
+        const LaneMask mantles = of_kind(ElementRecord::Kind::mantle);
+        for (LaneMask rest = taken & ~(triangles | quadrangles | spheres | mantles); rest != 0;) {
             const std::uint32_t element =
                 elements[static_cast<std::size_t>(std::countr_zero(rest))];
             const LaneMask same = lanes_of(element, rest, elements);

@@ -49,8 +49,6 @@ struct Placed {
     LaneMask touching = 0;
     LaneMask strange =
         0; ///< lanes whose rays have no direction, or are not finite, or too far away
-    double slack = 0;
-    double behind = 0;
 };
 
 /// The rays of a frame from a lane on, as many as fit into a register: in local coordinates, where
@@ -120,7 +118,8 @@ HWY_INLINE hn::Mask<Doubles> place_far(Frame& frame, const LocalRays& rays, std:
     return hn::Le(near, hn::Add(far, rays.slack));
 }
 
-/// Fills in the part of a frame from a lane on that fits into a register.
+/// Fills in the part of a frame from a lane on that fits into a register, and keeps the largest of
+/// the slacks and of what is as far behind, in any lane.
 HWY_INLINE void place_part(
     Frame& frame,
     const RayRows::Row& limit,
@@ -128,7 +127,9 @@ HWY_INLINE void place_part(
     LocalStart local_start,
     LaneMask lanes,
     std::size_t lane,
-    Placed& placed) {
+    Placed& placed,
+    Vec& slack,
+    Vec& behind) {
     const LocalGeometry& local = *frame.local;
     const Doubles d;
     const auto scale = all(local.scale);
@@ -187,16 +188,14 @@ HWY_INLINE void place_part(
     placed.strange |= bits(hn::Not(usual), lane);
     std::uint8_t counted[8] = {static_cast<std::uint8_t>((touching & lanes) >> lane)};
     const auto counts = hn::LoadMaskBits(d, counted);
-    const auto counted_slack = hn::IfThenElseZero(counts, rays.slack);
-    placed.slack = std::max(placed.slack, hn::GetLane(hn::MaxOfLanes(d, counted_slack)));
+    slack = hn::Max(slack, hn::IfThenElseZero(counts, rays.slack));
     // Twice coincidence_tolerance(), as a local distance.
     const auto reach = hn::Add(
         hn::Max(row(world_reach, lane), hn::Zero(d)),
         hn::Abs(hn::LoadU(d, frame.start_t.data() + lane)));
-    const auto behind =
+    const auto behind_here =
         hn::MulAdd(hn::Mul(reach, rays.speed), all(0x1p-40), all(0x1p-40 * farthest));
-    placed.behind =
-        std::max(placed.behind, hn::GetLane(hn::MaxOfLanes(d, hn::IfThenElseZero(counts, behind))));
+    behind = hn::Max(behind, hn::IfThenElseZero(counts, behind_here));
 }
 
 LaneMask place_rays_kernel(
@@ -205,14 +204,19 @@ LaneMask place_rays_kernel(
     const RayRows::Row& limit,
     const RayRows::Row& world_reach,
     LocalStart local_start) {
+    const Doubles d;
     Placed placed;
-    for (std::size_t lane = 0; lane < packet_size; lane += hn::Lanes(Doubles()))
-        if ((lanes >> lane & ((LaneMask{1} << hn::Lanes(Doubles())) - 1)) != 0)
-            place_part(frame, limit, world_reach, local_start, lanes, lane, placed);
-    frame.slack = static_cast<float>(std::max(placed.slack * (1 + 0x1p-20), least_slack));
-    frame.double_slack =
-        static_cast<float>(std::max(placed.slack - least_slack, 0.0) * (1 + 0x1p-20));
-    frame.behind = static_cast<float>(placed.behind * (1 + 0x1p-20));
+    Vec slacks = hn::Zero(d);
+    Vec behinds = hn::Zero(d);
+    for (std::size_t lane = 0; lane < packet_size; lane += hn::Lanes(d))
+        if ((lanes >> lane & ((LaneMask{1} << hn::Lanes(d)) - 1)) != 0)
+            place_part(
+                frame, limit, world_reach, local_start, lanes, lane, placed, slacks, behinds);
+    const double slack = hn::GetLane(hn::MaxOfLanes(d, slacks));
+    const double behind = hn::GetLane(hn::MaxOfLanes(d, behinds));
+    frame.slack = static_cast<float>(std::max(slack * (1 + 0x1p-20), least_slack));
+    frame.double_slack = static_cast<float>(std::max(slack - least_slack, 0.0) * (1 + 0x1p-20));
+    frame.behind = static_cast<float>(behind * (1 + 0x1p-20));
     placed.strange &= lanes;
     for (LaneMask rest = placed.strange; rest != 0; rest &= rest - 1) {
         const auto lane = static_cast<std::size_t>(std::countr_zero(rest));

@@ -2,6 +2,7 @@
 #include "vera/image/image.h"
 
 #include "vera/base/available_memory.h"
+#include "vera/base/large_pages.h"
 
 #include <limits>
 #include <new>
@@ -23,6 +24,17 @@ namespace {
         problem += fmt::format(
             ", of which {:.1f} GB are free", static_cast<double>(*available) / gigabyte);
     throw std::runtime_error(problem + "; make it smaller or choose a format of 8 bits");
+}
+
+/// Zeros, for which the system is asked for large pages before they are written: it gives these
+/// many times as fast.
+template <typename Sample>
+std::vector<Sample> black_samples(std::size_t count) {
+    std::vector<Sample> samples;
+    samples.reserve(count);
+    prefer_large_pages(samples.data(), count * sizeof(Sample));
+    samples.resize(count);
+    return samples;
 }
 
 } // namespace
@@ -56,11 +68,11 @@ Image blank_image(std::size_t width, std::size_t height, SampleType type) {
     const std::size_t count = 3 * width * height;
     try {
         if (type == SampleType::integer8)
-            image.samples = std::vector<std::uint8_t>(count);
+            image.samples = black_samples<std::uint8_t>(count);
         else if (type == SampleType::integer16)
-            image.samples = std::vector<std::uint16_t>(count);
+            image.samples = black_samples<std::uint16_t>(count);
         else
-            image.samples = std::vector<float>(count);
+            image.samples = black_samples<float>(count);
     } catch (const std::bad_alloc&) {
         throw_too_large(width, height, pixel_bytes);
     }

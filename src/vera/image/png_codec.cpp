@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <new>
@@ -130,6 +132,34 @@ struct Rows {
     int compression;
 };
 
+/// How much the bytes differ from others, each by itself.
+std::uint64_t
+difference(const unsigned char* bytes, const unsigned char* others, std::size_t size) {
+    std::uint64_t sum = 0;
+    constexpr std::size_t part = std::size_t{1} << 16; // of which the sum fits into 32 bits
+    for (std::size_t first = 0; first < size; first += part) {
+        const std::size_t end = std::min(first + part, size);
+        int part_sum = 0; // so that compilers find the instruction that sums up differences
+        for (std::size_t i = first; i < end; ++i)
+            part_sum += std::abs(int{bytes[i]} - int{others[i]});
+        sum += static_cast<std::uint64_t>(part_sum);
+    }
+    return sum;
+}
+
+/// The filter by which the row's bytes get smaller: differences from the pixel to the left, or from
+/// the one above, which there is. libpng would make both rows to see it, which takes several times
+/// as long.
+int better_filter(const Rows& rows, std::size_t y) {
+    const unsigned char* const row = rows.first + y * rows.row_bytes;
+    const std::size_t pixel = rows.row_bytes / rows.width;
+    std::uint64_t from_left = difference(row + pixel, row, rows.row_bytes - pixel);
+    for (std::size_t i = 0; i < pixel; ++i)
+        from_left += static_cast<std::uint64_t>(std::min<int>(row[i], 256 - row[i]));
+    const std::uint64_t from_above = difference(row, row - rows.row_bytes, rows.row_bytes);
+    return from_above < from_left ? PNG_FILTER_UP : PNG_FILTER_SUB;
+}
+
 /// False when libpng has met an error.
 bool encode(const Writer& writer, const Rows& rows, const std::vector<png_text>& texts) noexcept {
     png_structp png = writer.png;
@@ -137,7 +167,7 @@ bool encode(const Writer& writer, const Rows& rows, const std::vector<png_text>&
         return false;
     png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
     png_set_compression_level(png, rows.compression);
-    // Trying these two only halves the time that trying all takes, and files grow no larger.
+    // With these two only files grow no larger than with all.
     png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB | PNG_FILTER_UP);
     png_set_compression_buffer_size(png, std::size_t{1} << 16);
     png_set_IHDR(
@@ -156,8 +186,11 @@ bool encode(const Writer& writer, const Rows& rows, const std::vector<png_text>&
     png_write_info(png, writer.info);
     if (rows.bit_depth == 16 && std::endian::native == std::endian::little)
         png_set_swap(png);
-    for (std::size_t y = 0; y < rows.height; ++y)
+    for (std::size_t y = 0; y < rows.height; ++y) {
+        if (y > 0) // From the first row libpng takes what rows it has to keep.
+            png_set_filter(png, PNG_FILTER_TYPE_BASE, better_filter(rows, y));
         png_write_row(png, rows.first + y * rows.row_bytes);
+    }
     png_write_end(png, nullptr);
     return true;
 }

@@ -11,10 +11,11 @@
 
 namespace vera {
 
-/// A ray, and its first hit of the scene.
+/// A ray, and its first hit of the scene. Set by whoever makes it: blocks of them are made for all
+/// rays, and to clear them first would take longer than to fill them.
 struct MetFace {
-    const Ray* ray = nullptr;
-    const Hit* hit = nullptr;
+    const Ray* ray;
+    const Hit* hit;
 };
 
 /// surface_at() of up to block_size hits, to the bit, each put into the lane of its number; returns
