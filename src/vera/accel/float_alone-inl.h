@@ -101,6 +101,8 @@ HWY_INLINE bool follow_single(AloneSearch<Tree>& search, std::size_t octant, Sin
     const Tree& tree = search.tree;
     const Children d;
     const auto all = [&](float number) HWY_ATTR { return hn::Set(d, number); };
+    // As integers, numbers have the same order unless both are negative, which does not matter
+    // where they are compared with what is not; and which is larger is sooner known.
     const hn::RebindToSigned<Children> di;
     const auto bits = [&](hn::Vec<Children> numbers) HWY_ATTR { return hn::BitCast(di, numbers); };
     const auto inverse_x = all(ray.inverse[0]);
@@ -112,8 +114,8 @@ HWY_INLINE bool follow_single(AloneSearch<Tree>& search, std::size_t octant, Sin
     const auto far_x = all(ray.far_offset[0]);
     const auto far_y = all(ray.far_offset[1]);
     const auto far_z = all(ray.far_offset[2]);
-    // One by one, so that each stands in a register.
     const WideNode* const nodes = tree.nodes.data();
+    // Those of the root; where the others' are follows by one sum from a node's number.
     const auto planes_at = [&](std::size_t j) {
         return reinterpret_cast<const char*>(nodes[0].planes[0].data() + plane_places[octant][j]);
     };

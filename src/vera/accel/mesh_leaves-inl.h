@@ -64,15 +64,10 @@ template <typename D>
 HWY_INLINE Sides<hn::Vec<D>>
 elements_at(const TreeSearch<MeshTree>&, D d, const float* rows, std::size_t size, std::size_t i) {
     using V = hn::Vec<D>;
-    // Corner by corner, so that it takes few sums to find where each row is.
-    const auto corner = [&](const float* first) HWY_ATTR {
-        return Vector<V>{
-            hn::LoadU(d, first), hn::LoadU(d, first + size), hn::LoadU(d, first + 2 * size)};
-    };
-    rows += i;
-    const Vector<V> a = corner(rows);
-    const Vector<V> e = difference(corner(rows + 3 * size), a);
-    const Vector<V> f = difference(corner(rows + 6 * size), a);
+    const auto row = [&](std::size_t j) HWY_ATTR { return hn::LoadU(d, rows + j * size + i); };
+    const Vector<V> a = {row(0), row(1), row(2)};
+    const Vector<V> e = difference<V>({row(3), row(4), row(5)}, a);
+    const Vector<V> f = difference<V>({row(6), row(7), row(8)}, a);
     const V e_size = sum_of(absolute(e));
     const V f_size = sum_of(absolute(f));
     return {a, e, f, cross_product(e, f), hn::Add(e_size, f_size), hn::Mul(e_size, f_size)};
