@@ -293,6 +293,28 @@ TEST(MeshIndex, MeetsNothingBeyondTheLargestT) {
     EXPECT_EQ(met, std::vector<std::uint8_t>(rays.size(), 0));
 }
 
+TEST(MeshIndex, AnswersRaysOfDirectionsOfEverySize) {
+    constexpr float size = 0x1p-60F; // so that t is a usual number with tiny directions as well
+    const SampleMesh mesh = scaled_and_shifted(rough_sphere(3, 1), size, 0);
+    constexpr float away = -6 * size;
+    std::vector<MeshRay> rays;
+    constexpr float few[] = {-0.25F, -0.0F, 0.0F, 0.1875F};
+    for (const float x : {-1.0F, 1.0F})
+        for (const float y : few)
+            for (const float z : few)
+                for (const int exponent : {-149, -126, -100, -64, -63, -62, 0, 64, 124, 125, 126})
+                    for (const float t_max :
+                         {infinity, std::numeric_limits<float>::max(), 0.0F, -0.0F}) {
+                        MeshRay ray = {
+                            .origin = {away * x, away * y, away * z}, .direction = {x, y, z}};
+                        for (float& coordinate : ray.direction)
+                            coordinate = std::ldexp(coordinate, exponent);
+                        ray.t_max = t_max;
+                        rays.push_back(ray);
+                    }
+    expect_answers(MeshIndex(mesh.spans()), rays, brute_force_answers(mesh.spans(), rays), "sizes");
+}
+
 TEST(MeshIndex, OfNoTrianglesIsMetByNoRay) {
     for (const MeshIndexQuality quality : both_qualities) {
         const MeshIndex index({}, quality);

@@ -16,6 +16,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include <hwy/highway.h>
 
@@ -37,7 +38,8 @@ HWY_INLINE GroupMask lanes_with_place(const RayGroup& group) {
 /// The hit of a ray that may meet more than it surely meets, if it surely meets anything.
 template <typename Tree>
 HWY_NOINLINE typename Tree::Hit decide_doubtful(
-    const Search<Tree>& search,
+    const TreeSearch<Tree>& search,
+    const std::vector<Doubtful>& doubtful,
     const IndexRay& ray,
     std::uint32_t leaf,
     std::uint32_t place,
@@ -49,8 +51,8 @@ HWY_NOINLINE typename Tree::Hit decide_doubtful(
     };
     if (place != no_place)
         consider(leaf, place);
-    for (std::uint32_t i = last_doubtful; i != no_doubtful; i = search.space.doubtful[i].before)
-        consider(search.space.doubtful[i].leaf, search.space.doubtful[i].place);
+    for (std::uint32_t i = last_doubtful; i != no_doubtful; i = doubtful[i].before)
+        consider(doubtful[i].leaf, doubtful[i].place);
     return decider.hit();
 }
 
@@ -72,6 +74,7 @@ take_hits(const Search<Tree>& search, std::size_t groups, std::span<typename Tre
             const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
             of_group[lane] = decide_doubtful(
                 search,
+                space.doubtful,
                 group.rays[lane],
                 group.leaf[lane],
                 group.place[lane],

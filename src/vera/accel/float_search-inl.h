@@ -206,18 +206,6 @@ HWY_INLINE std::size_t follow_to_any(const Search<Tree>& search, std::span<const
     return groups;
 }
 
-/// The hit of a ray that was followed alone.
-template <typename Tree>
-HWY_INLINE typename Tree::Hit
-hit_of_single(const Search<Tree>& search, const SingleRay& ray, float per_t_scale) {
-    const RayGroup& group = *ray.group;
-    if (HWY_UNLIKELY(group.in_doubt != 0))
-        return decide_doubtful(search, *ray.given, ray.leaf, ray.place, group.doubtful[0]);
-    if (ray.place == no_place)
-        return {};
-    return sure_hit(search, ray, per_t_scale);
-}
-
 /// The nearest hits of the rays. The tree has nodes.
 template <typename Tree>
 HWY_INLINE void search_nearest_in(
@@ -225,23 +213,7 @@ HWY_INLINE void search_nearest_in(
     std::span<const IndexRay> rays,
     std::span<typename Tree::Hit> hits,
     SearchCounts& counts) {
-    const Search<Tree> search = {tree, workspace_of_this_thread(tree), counts};
-    if (rays.size() == 1) {
-        search.space.doubtful.clear();
-        SingleRay& ray = search.space.singles.front();
-        std::size_t octant = 0;
-        float per_t_scale = 1;
-        ray.group = &search.space.groups.front();
-        ray.group->in_doubt = 0;
-        if (start_single(tree, rays[0], ray, octant, per_t_scale)) {
-            add_numbers(search, ray);
-            follow_single<false>(search, octant, ray);
-            hits[0] = hit_of_single(search, ray, per_t_scale);
-        } else {
-            hits[0] = nearest_plainly(tree, rays[0]);
-        }
-        return;
-    }
+    const Search<Tree> search = {{tree}, workspace_of_this_thread(tree), counts};
     for (std::size_t first = 0; first < rays.size(); first += rays_at_once<Tree>) {
         const std::size_t count = std::min(rays_at_once<Tree>, rays.size() - first);
         const std::size_t groups = follow_to_nearest(search, rays.subspan(first, count));
@@ -256,19 +228,7 @@ HWY_INLINE void search_any_in(
     std::span<const IndexRay> rays,
     std::span<std::uint8_t> met,
     SearchCounts& counts) {
-    const Search<Tree> search = {tree, workspace_of_this_thread(tree), counts};
-    if (rays.size() == 1) {
-        SingleRay& ray = search.space.singles.front();
-        std::size_t octant = 0;
-        float per_t_scale = 1;
-        if (start_single(tree, rays[0], ray, octant, per_t_scale)) {
-            add_numbers(search, ray);
-            met[0] = follow_single<true>(search, octant, ray) ? 1 : 0;
-        } else {
-            met[0] = meets_any_plainly(tree, rays[0]) ? 1 : 0;
-        }
-        return;
-    }
+    const Search<Tree> search = {{tree}, workspace_of_this_thread(tree), counts};
     for (std::size_t first = 0; first < rays.size(); first += rays_at_once<Tree>) {
         const std::size_t count = std::min(rays_at_once<Tree>, rays.size() - first);
         const std::size_t groups = follow_to_any(search, rays.subspan(first, count));

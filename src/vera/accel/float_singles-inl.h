@@ -128,6 +128,13 @@ inline float power_of_two(int exponent) {
     return std::bit_cast<float>(static_cast<std::uint32_t>(exponent) << 23U);
 }
 
+/// Directions of these sizes, by their exponents as they stand in floats, are followed by a ray
+/// alone: inverses are computed of what was given, which need not wait for its size. Those of the
+/// largest are then usual numbers, and those that are too large for floats are too large to be
+/// kept.
+constexpr int least_alone_exponent = 64;
+constexpr int most_alone_exponent = 252;
+
 /// Fills in a ray that is asked about alone, as place_group() does it; false where single precision
 /// cannot follow it. per_t_scale as in a RayGroup.
 HWY_INLINE bool start_single(
@@ -141,19 +148,19 @@ HWY_INLINE bool start_single(
         std::max(std::abs(given.direction[1]), std::abs(given.direction[2])));
     const int size_exponent = static_cast<int>(std::bit_cast<std::uint32_t>(size) >> 23U);
     const int t_exponent = size_exponent + tree.exponent;
-    if (!tree.exact || size_exponent < 1 || size_exponent > 253 || t_exponent < least_t_exponent
-        || t_exponent > 253)
+    if (!tree.exact || size_exponent < least_alone_exponent || size_exponent > most_alone_exponent
+        || t_exponent < least_t_exponent || t_exponent > 253)
         return false;
     const float t_scale = power_of_two(t_exponent);
     per_t_scale = power_of_two(254 - t_exponent);
     const float origin_size = tree.scale(std::max(
         std::abs(given.origin[0]), std::max(std::abs(given.origin[1]), std::abs(given.origin[2]))));
-    ray.t_min = given.t_min * t_scale + 0;
-    ray.limit = given.t_max * t_scale;
-    if (!(origin_size <= farthest_origin && ray.t_min >= 0 && ray.t_min <= ray.limit
-          && ray.t_min * per_t_scale == given.t_min
-          && (ray.limit * per_t_scale == given.t_max
-              || ray.limit == std::numeric_limits<float>::infinity())))
+    const float t_min = given.t_min * t_scale + 0;
+    const float limit = given.t_max * t_scale + 0; // not -0, as boxes are compared by bits
+    if (!(origin_size <= farthest_origin && t_min >= 0 && t_min <= limit
+          && t_min * per_t_scale == given.t_min
+          && (limit * per_t_scale == given.t_max
+              || limit == std::numeric_limits<float>::infinity())))
         return false;
 
     // Registers hold three numbers, and one more that is something, but no matter what: rows are
@@ -169,35 +176,47 @@ HWY_INLINE bool start_single(
     static_assert(offsetof(SingleRay, origin) == 10 * sizeof(float));
     static_assert(offsetof(SingleRay, t_min) == 16 * sizeof(float));
     const auto all = [&](float number) HWY_ATTR { return hn::Set(d, number); };
-    const auto slack = all(rounding_slack(origin_size));
+    // The power of two of the largest coordinate, and its inverse, in each number: the ray's way
+    // through the first node waits for them.
+    const hn::RebindToUnsigned<decltype(d)> bits;
+    const auto power = hn::And(
+        hn::BitCast(
+            bits,
+            hn::Max(
+                hn::Abs(all(given.direction[0])),
+                hn::Max(hn::Abs(all(given.direction[1])), hn::Abs(all(given.direction[2]))))),
+        hn::Set(bits, 0x7f800000U));
+    const auto scale_back = hn::BitCast(d, power);
+    const auto scale = hn::BitCast(d, hn::Sub(hn::Set(bits, 0x7f000000U), power));
     std::uint32_t exact = 0;
     std::uint32_t backward = 0;
     for (std::size_t i = 0; i < axes; i += hn::Lanes(d)) {
         const auto given_origin = hn::LoadU(d, given.origin.data() + i);
         const auto given_direction = hn::LoadU(d, given.direction.data() + i);
+        const auto inverse = hn::CopySign(
+            hn::Min(hn::Mul(hn::Abs(hn::Div(all(1), given_direction)), scale_back), all(0x1p60F)),
+            given_direction);
         const auto origin =
             hn::Mul(hn::Mul(given_origin, all(tree.scale.first)), all(tree.scale.second));
         // -0 becomes 0.
-        const auto direction =
-            hn::Add(hn::Mul(given_direction, all(power_of_two(254 - size_exponent))), hn::Zero(d));
+        const auto direction = hn::Add(hn::Mul(given_direction, scale), hn::Zero(d));
         const auto same_origin = hn::Eq(
             hn::Mul(hn::Mul(origin, all(tree.scale_back.first)), all(tree.scale_back.second)),
             given_origin);
-        const auto same_direction =
-            hn::Eq(hn::Mul(direction, all(power_of_two(size_exponent))), given_direction);
+        const auto same_direction = hn::Eq(hn::Mul(direction, scale_back), given_direction);
         exact |= bits_of(d, hn::And(same_origin, same_direction)) << i;
-        const auto inverse =
-            hn::Div(all(1), hn::CopySign(hn::Max(hn::Abs(direction), all(0x1p-60F)), direction));
         backward |= bits_of(d, hn::Lt(inverse, hn::Zero(d))) << i;
-        const auto outward = hn::CopySign(slack, inverse);
+        // Along each axis as rounding_slack() says it of the largest coordinate.
+        const auto inward = hn::CopySign(
+            hn::MulAdd(hn::Abs(origin), all(0x1p-20F), all(0x1p-20F)), hn::Neg(given_direction));
         hn::StoreU(inverse, d, ray.inverse + i);
-        hn::StoreU(hn::Neg(hn::Mul(hn::Add(origin, outward), inverse)), d, ray.near_offset + i);
-        hn::StoreU(hn::Neg(hn::Mul(hn::Sub(origin, outward), inverse)), d, ray.far_offset + i);
+        hn::StoreU(hn::Mul(hn::Sub(inward, origin), inverse), d, ray.near_offset + i);
+        hn::StoreU(hn::Neg(hn::Mul(hn::Add(origin, inward), inverse)), d, ray.far_offset + i);
         hn::StoreU(origin, d, ray.origin + i);
         hn::StoreU(direction, d, ray.direction + i);
     }
-    ray.limit = given.t_max * t_scale;
-    ray.t_min = given.t_min * t_scale + 0;
+    ray.limit = limit;
+    ray.t_min = t_min;
     constexpr std::uint32_t all_axes = (1U << axes) - 1;
     if ((exact & all_axes) != all_axes)
         return false;

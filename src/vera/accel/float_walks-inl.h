@@ -110,11 +110,25 @@ HWY_INLINE void visit_leaf(const Search<Tree>& search, const TreeChild& leaf, Be
     beam.limit = limit_of_largest(largest);
 }
 
+/// Notes that the ray may meet the element at this place of this leaf.
+template <typename Tree>
+HWY_INLINE void
+doubt(const Search<Tree>& search, const SingleRay& ray, std::uint32_t leaf, std::uint32_t place) {
+    doubt(search.space.doubtful, *ray.group, ray.lane, leaf, place);
+}
+
+/// Whether double precision says that the ray meets the element at this place of this leaf.
+template <typename Tree>
+HWY_INLINE bool surely_meets(
+    const Search<Tree>& search, const SingleRay& ray, std::uint32_t leaf, std::uint32_t place) {
+    return surely_meets(search.tree, *ray.given, leaf, place);
+}
+
 /// Takes how a ray meets elements number i on of a leaf; true when it is only asked whether it
 /// meets anything, and it does.
-template <bool any, typename Tree>
+template <bool any, typename AnySearch>
 HWY_INLINE bool take_meetings(
-    const Search<Tree>& search,
+    AnySearch& search,
     const TreeChild& leaf,
     std::size_t i,
     const FloatMeeting<LeafLanes>& meeting,
@@ -150,26 +164,12 @@ HWY_INLINE bool take_meetings(
             }
         }
         if constexpr (any) {
-            if (surely_meets(search.tree, *ray.given, first, place))
+            if (surely_meets(search, ray, first, place))
                 return true;
         } else {
-            doubt(search.space.doubtful, *ray.group, ray.lane, first, place);
+            doubt(search, ray, first, place);
         }
     }
-    return false;
-}
-
-/// What a ray does at a leaf; true when it is only asked whether it meets anything, and it does.
-template <bool any, typename Tree>
-HWY_INLINE bool visit_leaf(const Search<Tree>& search, const TreeChild& leaf, SingleRay& ray) {
-    const LeafLanes d;
-    const std::size_t size = leaf_size(leaf);
-    const float* const rows = rows_of(search.tree, leaf);
-    search.counts.tests += size;
-    for (std::size_t i = 0; i < size; i += hn::Lanes(d))
-        if (take_meetings<any>(
-                search, leaf, i, meeting_single(elements_at(search, d, rows, size, i), ray), ray))
-            return true;
     return false;
 }
 

@@ -96,10 +96,15 @@ HWY_INLINE void doubt(
     all.push_back({leaf, place, before});
 }
 
-/// What is searched through, see FloatTree, and what for.
+/// What is searched through: see FloatTree.
 template <typename Tree>
-struct Search {
+struct TreeSearch {
     const Tree& tree;
+};
+
+/// A search for many rays, and what is counted meanwhile.
+template <typename Tree>
+struct Search : TreeSearch<Tree> {
     Workspace& space;
     SearchCounts& counts;
 };

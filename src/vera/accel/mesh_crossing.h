@@ -73,6 +73,13 @@ inline std::optional<double> end_in_bounds(const Ray& ray, Vec3 a, Vec3 b, Vec3 
 /// direction and two sides, is well known to meet the plane where rounding says.
 constexpr double well_known_crossing = 0x1p-20;
 
+/// Whether it does.
+inline bool is_well_known(Vec3 direction, Vec3 a, Vec3 b, Vec3 c) {
+    const double size =
+        max_component(abs(b - a)) * max_component(abs(c - a)) * max_component(abs(direction));
+    return std::abs(dot(cross(b - a, c - a), direction)) > well_known_crossing * size;
+}
+
 /// The test that decides whether a ray meets a triangle, its edges and corners included, and where.
 /// A ray in the triangle's plane does not.
 ///
@@ -84,10 +91,7 @@ inline std::optional<MeshCrossing>
 mesh_crossing(const PreparedRay& prepared, Vec3 a, Vec3 b, Vec3 c) {
     const Ray& ray = prepared.ray;
     const MeshCrossing crossing = plane_crossing(ray.origin, ray.direction, a, b, c);
-    const double size =
-        max_component(abs(b - a)) * max_component(abs(c - a)) * max_component(abs(ray.direction));
-    const double speed = std::abs(dot(cross(b - a, c - a), ray.direction));
-    const bool known = speed > well_known_crossing * size;
+    const bool known = is_well_known(ray.direction, a, b, c);
     // Most of what is asked about is the face that a ray starts beside: this settles it.
     if (known && !prepared.covers(crossing.t))
         return std::nullopt;

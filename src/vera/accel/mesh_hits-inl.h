@@ -133,24 +133,47 @@ take_sure_hits(const Search<MeshTree>& search, const RayGroup& group, MeshHit* h
             {&hits[lane].t, &hits[lane + 1].t, &hits[lane + 2].t, &hits[lane + 3].t});
 }
 
-/// The same for a ray that was followed alone, and surely meets something.
-HWY_INLINE MeshHit
-sure_hit(const Search<MeshTree>& search, const SingleRay& ray, float per_t_scale) {
-    const std::size_t size = ray.place >> 8U;
-    const float* const rows = numbers_at(search.tree, ray.leaf, ray.place);
+/// The corners of a triangle as they stand in its leaf.
+inline std::array<Vec3, 3>
+corners_in_leaf(const MeshTree& tree, std::uint32_t leaf, std::uint32_t place) {
+    const std::size_t size = place >> 8U;
+    const float* const rows = numbers_at(tree, leaf, place);
     const auto corner = [&](std::size_t number) {
         return in_double(
             {rows[3 * number * size],
              rows[(3 * number + 1) * size],
              rows[(3 * number + 2) * size]});
     };
+    return {corner(0), corner(1), corner(2)};
+}
+
+/// Whether double precision at once rules out that a ray, which was followed alone, meets the
+/// triangle: as mesh_crossing() begins, to the bit. What is multiplied here by powers of two is so
+/// on both sides of each comparison.
+HWY_INLINE bool ruled_out(
+    const TreeSearch<MeshTree>& search,
+    const SingleRay& ray,
+    std::uint32_t leaf,
+    std::uint32_t place) {
+    const auto [a, b, c] = corners_in_leaf(search.tree, leaf, place);
+    const Vec3 origin = in_double({ray.origin[0], ray.origin[1], ray.origin[2]});
+    const Vec3 direction = in_double({ray.direction[0], ray.direction[1], ray.direction[2]});
+    const double t = plane_crossing(origin, direction, a, b, c).t;
+    return is_well_known(direction, a, b, c)
+        && !(static_cast<double>(ray.t_min) <= t && t <= static_cast<double>(ray.limit));
+}
+
+/// The same for a ray that was followed alone, and surely meets something.
+HWY_INLINE MeshHit
+sure_hit(const TreeSearch<MeshTree>& search, const SingleRay& ray, float per_t_scale) {
+    const auto [a, b, c] = corners_in_leaf(search.tree, ray.leaf, ray.place);
     // As cross_planes() does it.
     MeshCrossing crossing = plane_crossing(
         in_double({ray.origin[0], ray.origin[1], ray.origin[2]}),
         in_double({ray.direction[0], ray.direction[1], ray.direction[2]}),
-        corner(0),
-        corner(1),
-        corner(2));
+        a,
+        b,
+        c);
     crossing.t *= static_cast<double>(per_t_scale);
     return mesh_hit(crossing, element_at(search.tree, ray.leaf, ray.place));
 }

@@ -19,13 +19,17 @@ MeshIndex& MeshIndex::operator=(MeshIndex&&) noexcept = default;
 
 MeshHit MeshIndex::nearest_hit(const MeshRay& ray) const {
     MeshHit hit;
-    nearest_hits({&ray, 1}, {&hit, 1});
+    detail::search_nearest_alone(*tree_, ray, hit);
     return hit;
 }
 
 void MeshIndex::nearest_hits(
     std::span<const MeshRay> rays, std::span<MeshHit> hits, MeshQueryCounts* counts) const {
     VERA_CHECK(rays.size() == hits.size());
+    if (rays.size() == 1 && counts == nullptr) {
+        hits[0] = nearest_hit(rays[0]);
+        return;
+    }
     detail::SearchCounts own;
     detail::search_nearest(*tree_, rays, hits, own);
     if (counts != nullptr)
@@ -33,14 +37,16 @@ void MeshIndex::nearest_hits(
 }
 
 bool MeshIndex::meets_any(const MeshRay& ray) const {
-    std::uint8_t met = 0;
-    meet_any({&ray, 1}, {&met, 1});
-    return met != 0;
+    return detail::search_any_alone(*tree_, ray);
 }
 
 void MeshIndex::meet_any(
     std::span<const MeshRay> rays, std::span<std::uint8_t> met, MeshQueryCounts* counts) const {
     VERA_CHECK(rays.size() == met.size());
+    if (rays.size() == 1 && counts == nullptr) {
+        met[0] = meets_any(rays[0]) ? 1 : 0;
+        return;
+    }
     detail::SearchCounts own;
     detail::search_any(*tree_, rays, met, own);
     if (counts != nullptr)

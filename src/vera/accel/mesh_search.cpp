@@ -36,6 +36,14 @@ void search_any_kernel(
     search_any_in(tree, rays, met, counts);
 }
 
+void search_nearest_alone_kernel(const MeshTree& tree, const MeshRay& ray, MeshHit& hit) {
+    search_nearest_alone_in(tree, ray, hit);
+}
+
+bool search_any_alone_kernel(const MeshTree& tree, const MeshRay& ray) {
+    return search_any_alone_in(tree, ray);
+}
+
 } // namespace vera::detail::HWY_NAMESPACE
 
 HWY_AFTER_NAMESPACE();
@@ -46,6 +54,8 @@ namespace vera::detail {
 
 HWY_EXPORT(search_nearest_kernel);
 HWY_EXPORT(search_any_kernel);
+HWY_EXPORT(search_nearest_alone_kernel);
+HWY_EXPORT(search_any_alone_kernel);
 
 void search_nearest(
     const MeshTree& tree,
@@ -69,6 +79,17 @@ void search_any(
         return;
     }
     HWY_DYNAMIC_DISPATCH(search_any_kernel)(tree, rays, met, counts);
+}
+
+void search_nearest_alone(const MeshTree& tree, const MeshRay& ray, MeshHit& hit) {
+    if (tree.nodes.empty())
+        hit = {};
+    else
+        HWY_DYNAMIC_DISPATCH(search_nearest_alone_kernel)(tree, ray, hit);
+}
+
+bool search_any_alone(const MeshTree& tree, const MeshRay& ray) {
+    return !tree.nodes.empty() && HWY_DYNAMIC_DISPATCH(search_any_alone_kernel)(tree, ray);
 }
 
 } // namespace vera::detail

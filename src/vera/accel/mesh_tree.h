@@ -42,6 +42,10 @@ void search_any(
     std::span<std::uint8_t> met,
     SearchCounts& counts);
 
+/// The same for one ray.
+void search_nearest_alone(const MeshTree& tree, const MeshRay& ray, MeshHit& hit);
+bool search_any_alone(const MeshTree& tree, const MeshRay& ray);
+
 /// The same for one ray, in double precision throughout: for rays that single precision cannot
 /// follow.
 MeshHit nearest_plainly(const MeshTree& tree, const MeshRay& ray);

@@ -92,9 +92,15 @@ take_sure_hits(const Search<SphereTree>& search, const RayGroup& group, SphereHi
     }
 }
 
+/// Spheres are not ruled out any sooner than they are decided.
+HWY_INLINE bool
+ruled_out(const TreeSearch<SphereTree>&, const SingleRay&, std::uint32_t, std::uint32_t) {
+    return false;
+}
+
 /// The same for a ray that was followed alone, and surely meets something.
 HWY_INLINE SphereHit
-sure_hit(const Search<SphereTree>& search, const SingleRay& ray, float per_t_scale) {
+sure_hit(const TreeSearch<SphereTree>& search, const SingleRay& ray, float per_t_scale) {
     const std::size_t size = ray.place >> 8U;
     const float* const numbers = numbers_at(search.tree, ray.leaf, ray.place);
     const SphereRay scaled(

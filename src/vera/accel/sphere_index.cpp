@@ -19,13 +19,17 @@ SphereIndex& SphereIndex::operator=(SphereIndex&&) noexcept = default;
 
 SphereHit SphereIndex::nearest_hit(const IndexRay& ray) const {
     SphereHit hit;
-    nearest_hits({&ray, 1}, {&hit, 1});
+    detail::search_nearest_alone(*tree_, ray, hit);
     return hit;
 }
 
 void SphereIndex::nearest_hits(
     std::span<const IndexRay> rays, std::span<SphereHit> hits, SphereQueryCounts* counts) const {
     VERA_CHECK(rays.size() == hits.size());
+    if (rays.size() == 1 && counts == nullptr) {
+        hits[0] = nearest_hit(rays[0]);
+        return;
+    }
     detail::SearchCounts own;
     detail::search_nearest(*tree_, rays, hits, own);
     if (counts != nullptr)
@@ -33,14 +37,16 @@ void SphereIndex::nearest_hits(
 }
 
 bool SphereIndex::meets_any(const IndexRay& ray) const {
-    std::uint8_t met = 0;
-    meet_any({&ray, 1}, {&met, 1});
-    return met != 0;
+    return detail::search_any_alone(*tree_, ray);
 }
 
 void SphereIndex::meet_any(
     std::span<const IndexRay> rays, std::span<std::uint8_t> met, SphereQueryCounts* counts) const {
     VERA_CHECK(rays.size() == met.size());
+    if (rays.size() == 1 && counts == nullptr) {
+        met[0] = meets_any(rays[0]) ? 1 : 0;
+        return;
+    }
     detail::SearchCounts own;
     detail::search_any(*tree_, rays, met, own);
     if (counts != nullptr)

@@ -58,8 +58,8 @@ struct Spheres {
 
 /// Those from number i of a leaf on.
 template <typename D>
-HWY_INLINE Spheres<hn::Vec<D>>
-elements_at(const Search<SphereTree>&, D d, const float* rows, std::size_t size, std::size_t i) {
+HWY_INLINE Spheres<hn::Vec<D>> elements_at(
+    const TreeSearch<SphereTree>&, D d, const float* rows, std::size_t size, std::size_t i) {
     const auto row = [&](std::size_t j) HWY_ATTR { return hn::LoadU(d, rows + j * size + i); };
     return {{row(0), row(1), row(2)}, row(3)};
 }
@@ -125,6 +125,11 @@ HWY_INLINE FloatMeeting<D> meeting_sphere(
         hn::And(hn::Gt(rest, error), hn::And(hn::Gt(near, rays.t_min), hn::Lt(far, limit))),
         near,
         far};
+}
+
+/// All of the spheres, as bits: of none is sooner known that a ray does not pass through it.
+HWY_INLINE std::uint32_t passed_through(const Spheres<hn::Vec<LeafLanes>>&, const SingleRay&) {
+    return ~std::uint32_t{0};
 }
 
 /// How a ray meets the spheres.
@@ -230,14 +235,14 @@ HWY_INLINE void add_rows(const Search<SphereTree>&, RayGroup& group) {
     }
 }
 
-HWY_INLINE void add_numbers(const Search<SphereTree>&, const RayGroup& group, SingleRay* rays) {
+HWY_INLINE void add_numbers(const TreeSearch<SphereTree>&, const RayGroup& group, SingleRay* rays) {
     for (std::size_t lane = 0; lane < group_size; ++lane) {
         rays[lane].per_square = group.per_square[lane];
         rays[lane].length = group.length[lane];
     }
 }
 
-HWY_INLINE void add_numbers(const Search<SphereTree>&, SingleRay& ray) {
+HWY_INLINE void add_numbers(const TreeSearch<SphereTree>&, SingleRay& ray) {
     const float* const direction = ray.direction;
     const float square =
         direction[0] * direction[0] + direction[1] * direction[1] + direction[2] * direction[2];

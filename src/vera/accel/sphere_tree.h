@@ -43,6 +43,10 @@ void search_any(
     std::span<std::uint8_t> met,
     SearchCounts& counts);
 
+/// The same for one ray.
+void search_nearest_alone(const SphereTree& tree, const IndexRay& ray, SphereHit& hit);
+bool search_any_alone(const SphereTree& tree, const IndexRay& ray);
+
 /// The same for one ray, in double precision throughout: for rays that single precision cannot
 /// follow.
 SphereHit nearest_plainly(const SphereTree& tree, const IndexRay& ray);

@@ -49,6 +49,9 @@ struct TreeChild {
     /// The number of the node, or of the block's first row.
     constexpr std::size_t first() const { return bits & (most - 1); }
 
+    /// first() of what is known to be a node.
+    constexpr std::size_t node_number() const { return static_cast<std::uint32_t>(bits); }
+
     /// 1 for a block, 0 for a node.
     constexpr std::size_t is_block() const { return bits >> block_shift & 1U; }
 

@@ -166,7 +166,7 @@ fetch(const WideNode* nodes, const void* blocks, std::size_t unit, const TreeChi
 
 /// What waits for one ray, or for a packet, in a tree of so many levels is at most this much: at
 /// each level less than a node's children; and whole registers are stored.
-inline std::size_t waiting_depth(std::size_t levels) {
+constexpr std::size_t waiting_depth(std::size_t levels) {
     return tree_width * (levels + 2);
 }
 
