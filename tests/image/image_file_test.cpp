@@ -171,6 +171,40 @@ TEST_F(ImageFile, HasTheHighByteFirstInPng) {
     EXPECT_THAT(content(folder / "a.png"), HasSubstr("\x12\x34\x00\x07\xff\xfe"s));
 }
 
+TEST_F(ImageFile, PngRowsAreDifferencesFromTheLeftOrFromAboveWhicheverAreSmaller) {
+    constexpr std::size_t side = 64;
+    std::mt19937 random(1996);
+    for (const SampleType type : {SampleType::integer8, SampleType::integer16}) {
+        Image like_above = blank_image(side, side, type);
+        Image like_left = blank_image(side, side, type);
+        std::visit(
+            [&](auto& samples) {
+                using Sample = typename std::decay_t<decltype(samples)>::value_type;
+                auto& left = std::get<std::decay_t<decltype(samples)>>(like_left.samples);
+                for (std::size_t i = 0; i < 3 * side; ++i) {
+                    const auto sample = static_cast<Sample>(random());
+                    for (std::size_t j = 0; j < side; ++j) {
+                        // So that no row and no pixel is found again as it was.
+                        const auto next =
+                            static_cast<Sample>(static_cast<std::size_t>(sample) + 5 * j);
+                        samples[3 * side * j + i] = next;
+                        left[3 * (side * (i % side) + j) + i / side] = next;
+                    }
+                }
+            },
+            like_above.samples);
+        // Without a filter, or with the other one, they take several times as much.
+        for (const Image* image : {&like_above, &like_left}) {
+            const auto format =
+                type == SampleType::integer8 ? ImageFileFormat::png8 : ImageFileFormat::png16;
+            write_image(*image, folder / "a.png", format);
+            EXPECT_LT(
+                fs::file_size(folder / "a.png"), image->width * image->height * size_of(type));
+            EXPECT_EQ(read_image(folder / "a.png").samples, image->samples);
+        }
+    }
+}
+
 TEST_F(ImageFile, CarriesItsMetadata) {
     const PictureMetadata metadata = {
         {"Software", "vera 0.1.0"}, {"Settings", "--depth 5"}, {"Author", "J\xc3\xb6rg"}};

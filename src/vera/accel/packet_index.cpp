@@ -30,13 +30,13 @@ void start(
     query.purpose = purpose;
     query.active = ~LaneMask{0} >> (std::numeric_limits<LaneMask>::digits - rays.size());
     take_rays(query, rays);
-    query.reach.fill(0);
 }
 
 /// For rays that meet many coincident faces: the first search has told where they lie.
 void look_again(
     PacketQuery& query, const SearchedScene& searched, LaneMask undecided, std::span<Hit> hits) {
     start(query, searched, query.rays, Purpose::window);
+    query.reach.fill(0);
     query.active = undecided;
     query.window.clear();
     for (std::size_t lane = 0; lane < query.rays.size(); ++lane) {
@@ -132,6 +132,7 @@ void find_transmittances(
     const Purpose purpose = searched.opaque ? Purpose::any : Purpose::transmittance;
     const auto begin = [&](PacketQuery& query, std::span<const QueryRay> packet) {
         start(query, searched, packet, purpose);
+        query.reach.fill(0);
         if (purpose == Purpose::transmittance)
             for (std::size_t lane = 0; lane < packet.size(); ++lane)
                 query.transmittance[lane].clear();
