@@ -378,7 +378,8 @@ TEST(DrawnFirmament, IsTheBackgroundAloneWhereItIsOfOneColor) {
 
 TEST(ShadedDrawing, DoesNotDependOnThreads) {
     testing::RandomSceneSettings settings;
-    settings.items = 8;
+    settings.items = 20; // of hundreds of facets
+
     Scene scene = testing::random_scene(5, settings);
     std::mt19937 random(5);
     light_scene(scene, random);
@@ -391,6 +392,8 @@ TEST(ShadedDrawing, DoesNotDependOnThreads) {
         return draw_scene(scene, camera_number(0), picture, draw).drawing.fills;
     };
     const auto one = drawn(1);
+    EXPECT_TRUE(std::ranges::any_of(
+        one, [](const FilledOutline& outline) { return outline.id == "underlay"; }));
     for (const std::size_t threads : {2U, 7U}) {
         const auto more = drawn(threads);
         ASSERT_EQ(more.size(), one.size());
