@@ -21,12 +21,13 @@ QUANTITIES = {"seconds": "seconds", "steps": "counted steps"}
 class Results:
     """What was measured on a machine; None for a part that was not."""
 
-    KINDS = ("peers", "errors", "rays", "growth", "billion", "drawings", "engines", "faces", "leaks", "sizes")
+    KINDS = ("peers", "errors", "rays", "growth", "billion", "drawings", "engines", "faces", "leaks",
+             "shaded_leaks", "sizes")
 
     def __init__(self, name):
         self.machine = name
         (self.peers, self.errors, self.rays, self.growth, self.billion, self.drawings, self.engines, self.faces, self.leaks,
-         self.sizes) = (self.load(kind) for kind in self.KINDS)
+         self.shaded_leaks, self.sizes) = (self.load(kind) for kind in self.KINDS)
 
     def load(self, kind):
         path = RESULTS / f"{kind}-{self.machine}.json"

@@ -245,13 +245,14 @@ def faces_table(results):
 
 def leaks_table(results):
     rows = []
-    found = results.leaks["rows"] if results.leaks else []
-    for zoom in sorted({row["zoom"] for row in found}):
-        chosen = [row for row in found if row["zoom"] == zoom]
-        rows.append([f"{zoom:g}", str(len(chosen)), str(sum(row["interior"] for row in chosen)), *(
-            str(sum(row["programs"][name]["pixels"] for row in chosen)) for name in chosen[0]["programs"])])
-    head = ["times its size", "scenes", "interior pixels", *(found[0]["programs"] if found else [])]
-    return table(head, rows) if rows else None
+    programs = list(results.leaks["rows"][0]["programs"]) if results.leaks else []
+    for style, found in (("flat", results.leaks), ("shaded", results.shaded_leaks if results.leaks else None)):
+        measured = found["rows"] if found else []
+        for zoom in sorted({row["zoom"] for row in measured}):
+            chosen = [row for row in measured if row["zoom"] == zoom]
+            rows.append([style, f"{zoom:g}", str(len(chosen)), str(sum(row["interior"] for row in chosen)), *(
+                str(sum(row["programs"][name]["pixels"] for row in chosen)) for name in programs)])
+    return table(["style", "times its size", "scenes", "interior pixels", *programs], rows) if rows else None
 
 
 def sizes_table(results):

@@ -12,6 +12,7 @@ bench_usage() {
 ./dev bench engines ...  how the two engines grow that find what is seen
 ./dev bench comparison . depth buffer, visible surfaces and rays, as section 3.4 of the paper compares them
 ./dev bench faces ...    whether any face is wrong, in the map and in files, at a million points a scene
+./dev bench gradients .. how far colours of drawings are off the lighting formula
 ./dev bench leaks ...    whether the background shines through drawings, in five programs
 ./dev bench sizes ...    how large drawings are beside what they need
 ./dev bench raster ...   the compressed raster, against PNG
@@ -79,6 +80,11 @@ bench_faces() {
     step "check faces" bench/drawings/faces "$@"
 }
 
+bench_gradients() {
+    build_benchmark gradients_check
+    step "compare colours" bench/drawings/gradients "$@"
+}
+
 bench_leaks() {
     step "install viewers" install_packages drawings
     # shellcheck disable=SC2046 # one option or none
@@ -111,7 +117,7 @@ bench_plots() {
 bench() {
     case ${1:-} in
     --help | -h) bench_usage ;;
-    peers | rays | growth | billion | drawings | engines | comparison | faces | leaks | sizes | raster | colors | plots)
+    peers | rays | growth | billion | drawings | engines | comparison | faces | gradients | leaks | sizes | raster | colors | plots)
         step "install packages" install_packages build bench
         "bench_$1" "${@:2}"
         ;;
@@ -125,6 +131,7 @@ bench() {
         bench_engines
         bench_comparison
         bench_faces
+        bench_gradients
         bench_leaks
         bench_sizes
         bench_raster

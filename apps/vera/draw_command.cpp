@@ -124,24 +124,65 @@ void check_style(const Request& request, DrawingStyle style, DrawingFormat forma
             request.style));
 }
 
-bool lets_light_through(const Scene& scene, const Item& item) {
-    return item.material != inherited_material && !is_black(material_of(scene, item.material).tab);
-}
+/// What of a scene is called, and what in it shows materials that let light through.
+class SeenThrough {
+public:
+    explicit SeenThrough(const Scene& scene)
+        : scene_(scene)
+        , shows_inherited_(scene.subscenes.size())
+        , is_called_(scene.subscenes.size()) {
+        const std::vector<std::size_t> order = callees_first(scene);
+        for (const std::size_t number : order)
+            shows_inherited_[number] = shows_inherited(scene.subscenes[number]);
+        look_at(scene.geometry);
+        for (std::size_t i = order.size(); i-- > 0;)
+            if (is_called_[order[i]])
+                look_at(scene.subscenes[order[i]]);
+    }
+
+    const Item* first = nullptr; ///< that has one, or null
+    std::set<MaterialId> materials;
+
+private:
+    static std::size_t callee(const Geometry& geometry, const Item& item) {
+        return static_cast<std::size_t>(geometry.calls[item.index].subscene);
+    }
+
+    /// Whether the item's own material is that of something: not of a call whose things all have
+    /// another one.
+    bool shows_own(const Geometry& geometry, const Item& item) const {
+        return item.kind != ItemKind::subscene_call || shows_inherited_[callee(geometry, item)];
+    }
+
+    bool shows_inherited(const Geometry& geometry) const {
+        return std::ranges::any_of(geometry.items, [&](const Item& item) {
+            return item.material == inherited_material && shows_own(geometry, item);
+        });
+    }
+
+    void look_at(const Geometry& geometry) {
+        for (const Item& item : geometry.items) {
+            if (item.kind == ItemKind::subscene_call)
+                is_called_[callee(geometry, item)] = true;
+            if (item.material == inherited_material || !shows_own(geometry, item)
+                || is_black(material_of(scene_, item.material).tab))
+                continue;
+            first = first == nullptr ? &item : first;
+            materials.insert(item.material);
+        }
+    }
+
+    const Scene& scene_;
+    std::vector<bool> shows_inherited_; ///< of each subscene
+    std::vector<bool> is_called_;       ///< likewise; not by one that nobody calls
+};
 
 /// Tells once where a drawing shows something else than the lighting formula gives for what the
 /// viewer meets first: of materials that let light through. Where the first of them is used.
 std::optional<Diagnostic> transparency_warning(const Scene& scene) {
-    const Item* first = nullptr;
-    std::set<MaterialId> materials;
-    const auto look_at = [&](const Geometry& geometry) {
-        for (const Item& item : geometry.items)
-            if (lets_light_through(scene, item)) {
-                first = first == nullptr ? &item : first;
-                materials.insert(item.material);
-            }
-    };
-    look_at(scene.geometry);
-    std::ranges::for_each(scene.subscenes, look_at);
+    const SeenThrough seen(scene);
+    const Item* const first = seen.first;
+    const std::set<MaterialId>& materials = seen.materials;
     if (first == nullptr)
         return std::nullopt;
     Diagnostic warning;

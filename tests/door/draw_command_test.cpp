@@ -386,6 +386,21 @@ TEST(DrawCommand, WarnsOnceOfWhatLetsLightThrough) {
             << run.err;
         EXPECT_EQ(run.err.find("light through"), run.err.rfind("light through")) << run.err;
     }
+    // Of subscenes, those that are called, also by others, count, and materials that a call hands
+    // on.
+    const std::string subscenes = "SCENE lit CM clay " + face + "SCENE bare " + face
+        + "SCENE window CM glass " + face + "SCENE house CM pane SSC bare SSC window\n";
+    const std::string start = view + glass;
+    for (const auto& [calls, warns] :
+         {std::pair("CM clay SSC lit", false),
+          std::pair("CM glass SSC lit", false),
+          std::pair("CM glass SSC bare", true),
+          std::pair("CM clay SSC house", true)}) {
+        folder.write("calls.vera", start + subscenes + "MA last DRF 1 1 1\n" + calls + "\n");
+        const ProgramRun run = run_vera(folder, "draw calls.vera -o a.svg");
+        ASSERT_EQ(run.exit_code, 0) << run.err;
+        EXPECT_EQ(holds(run.err, "light through"), warns) << calls << run.err;
+    }
     for (const char* style : {"ids", "lines"}) {
         const ProgramRun run =
             run_vera(folder, std::string("draw glass.vera -o c.svg --style ") + style);

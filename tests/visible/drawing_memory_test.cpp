@@ -13,6 +13,7 @@
 #include "vera/visible/projection.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <filesystem>
 #include <random>
 #include <stdexcept>
@@ -343,6 +344,58 @@ TEST(DrawingMemory, ADrawingOfFillsDoesNotHoldItsOutlines) {
             EXPECT_LT(taken, (is_shaded ? sample.most_shaded : sample.most) * count)
                 << count << " triangles";
         }
+}
+
+enum class Paint { color, gradient };
+
+/// Combs that are made when they are asked for.
+Drawing drawing_of_combs(Paint paint) {
+    Drawing drawing;
+    drawing.width = drawing.height = 1000;
+    drawing.later_fills.blocks = 128;
+    drawing.later_fills.have_gradients = paint == Paint::gradient;
+    drawing.later_fills.block = [paint](std::size_t number, const CancelFlag*) {
+        std::vector<FilledOutline> outlines(16);
+        for (std::size_t i = 0; i < outlines.size(); ++i) {
+            std::vector<DrawingPoint>& ring = outlines[i].rings.emplace_back();
+            const double y = static_cast<double>(7 * i + number);
+            for (int x = 0; x < 500; ++x)
+                ring.push_back({x + 0.37, y + (x % 2 == 0 ? 5.23 : 3.31)});
+            ring.push_back({500, y});
+            ring.push_back({0, y});
+            if (paint == Paint::color)
+                continue;
+            Gradient& gradient = outlines[i].gradient.emplace();
+            gradient.start.y = y;
+            gradient.stops = {{0, {1, 2, 3}}, {1, {3, 2, 1}}};
+        }
+        return outlines;
+    };
+    drawing.later_fills.with_seams = [](std::size_t, const CancelFlag*) {
+        return std::vector<FilledOutline>();
+    };
+    return drawing;
+}
+
+TEST(DrawingMemory, WhatGoesIntoAPipeIsThereOnce) {
+    if (memory_is_watched())
+        GTEST_SKIP() << "a sanitizer takes memory of its own";
+    const std::filesystem::path device = "/dev/null"; // written as a pipe is
+    if (!std::filesystem::exists(device))
+        GTEST_SKIP() << "there is no " << device;
+    const ThreadLimit one(1);
+    for (const Paint paint : {Paint::color, Paint::gradient}) {
+        const Drawing drawing = drawing_of_combs(paint);
+        std::string text;
+        write_svg(drawing, {}, text);
+        constexpr double block = 0x1p20;
+        ASSERT_GT(static_cast<double>(text.size()), 6 * block);
+        const double taken = most_bytes_of([&] {
+            OutputFile file(device);
+            write_drawing(drawing, file, DrawingFormat::svg);
+        });
+        EXPECT_LT(taken, static_cast<double>(text.size()) + 2 * block);
+    }
 }
 
 std::string refusal(const std::function<void()>& work) {

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -156,7 +157,7 @@ TEST(ShadedDrawing, ShowsWhatRaysSee) {
                 std::uniform_real_distribution(1.0, 119.0)(random),
                 std::uniform_real_distribution(1.0, 119.0)(random)};
             const Hit hit = rays.hit(at);
-            const auto slack = slack_at(rays, at, hit, 3 * draw.deviation);
+            const auto slack = slack_at(rays, at, hit, draw.deviation);
             if (!slack || drawn.penetrating > 0 || drawn.cut_nearness > 0)
                 continue;
             ++compared;
@@ -217,9 +218,23 @@ LitWall lit_wall(std::mt19937& random) {
     return wall;
 }
 
+/// To the lines along the sides of a triangle, in pixels.
+double distance_to_border(DrawingPoint point, const BorderRing& corners) {
+    double least = 1e9;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const DrawingPoint a = corners[i];
+        const DrawingPoint b = corners[(i + 1) % 3];
+        const double across = (b.x - a.x) * (point.y - a.y) - (b.y - a.y) * (point.x - a.x);
+        least = std::min(least, std::abs(across) / std::hypot(b.x - a.x, b.y - a.y));
+    }
+    return least;
+}
+
 TEST(ShadedOutlines, AreWithinTheToleranceOnRandomFacesInRandomLight) {
     std::mt19937 random(7);
     int compared = 0;
+    int beyond = 0; // all that the light is within a tenth of a pixel
+    int inner = 0;
     int off = 0;
     double worst = 0;
     for (int round = 0; round < 40; ++round) {
@@ -256,15 +271,20 @@ TEST(ShadedOutlines, AreWithinTheToleranceOnRandomFacesInRandomLight) {
             for (const DrawingPoint way : corners_about)
                 slack = std::max(
                     slack, difference(light({at.x + 0.1 * way.x, at.y + 0.1 * way.y}), light(at)));
-            const double error = difference(*shown, light(at)) - slack;
+            const double error = difference(*shown, light(at));
             ++compared;
+            beyond += error - slack > 1.001 * tolerance ? 1 : 0;
+            if (distance_to_border(at, corners) < 1.5)
+                continue;
+            ++inner;
             worst = std::max(worst, error);
             off += error > 1.001 * tolerance ? 1 : 0;
         }
     }
-    // Highlights narrower than the samples' distance are seen too late.
-    EXPECT_LT(worst, 8 * tolerance);
-    EXPECT_LT(off, compared / 200) << "at worst by " << 255 * worst;
+    // Seen from the side, where a pixel is much of a face, most are.
+    EXPECT_LT(worst, 3 * tolerance);
+    EXPECT_LE(beyond, compared / 4000);
+    EXPECT_LE(off, inner / 200) << "at worst by " << 255 * worst;
 }
 
 TEST(RegionLight, LeavesOutTheLightsThatDoNotReachIt) {
@@ -358,7 +378,8 @@ TEST(DrawnFirmament, IsTheBackgroundAloneWhereItIsOfOneColor) {
 
 TEST(ShadedDrawing, DoesNotDependOnThreads) {
     testing::RandomSceneSettings settings;
-    settings.items = 8;
+    settings.items = 20; // of hundreds of facets
+
     Scene scene = testing::random_scene(5, settings);
     std::mt19937 random(5);
     light_scene(scene, random);
@@ -371,6 +392,8 @@ TEST(ShadedDrawing, DoesNotDependOnThreads) {
         return draw_scene(scene, camera_number(0), picture, draw).drawing.fills;
     };
     const auto one = drawn(1);
+    EXPECT_TRUE(std::ranges::any_of(
+        one, [](const FilledOutline& outline) { return outline.id == "underlay"; }));
     for (const std::size_t threads : {2U, 7U}) {
         const auto more = drawn(threads);
         ASSERT_EQ(more.size(), one.size());

@@ -24,7 +24,8 @@ void add_svg_areas(
     std::size_t last,
     std::string& text);
 
-/// As write_svg(), into a file, part by part; into a pipe all at the end. The caller commits.
+/// As write_svg(), into a file, part by part; into a pipe all at the end, in parts as well. The
+/// caller commits.
 void write_svg_file(
     const Drawing& drawing,
     const DrawingSettings& settings,

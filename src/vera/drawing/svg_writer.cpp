@@ -93,8 +93,13 @@ public:
         for (std::size_t i = 0; i < layers_.lines.size(); ++i)
             write_lines(layers_.lines[i], line_ids_[i]);
         text_ += "</svg>\n";
-        if (file_ != nullptr)
-            file_->write(text_);
+        if (file_ == nullptr)
+            return;
+        for (std::string& part : ready_) {
+            file_->write(part);
+            std::string().swap(part);
+        }
+        file_->write(text_);
     }
 
 private:
@@ -134,16 +139,20 @@ private:
     }
 
     /// What is written so far, into the file: the whole of a large drawing need not be there at a
-    /// time. But what ends early must not have written a part of it into a pipe.
+    /// time. But what ends early must not have written a part of it into a pipe: for one the parts
+    /// wait, as one text would be there twice where it grows.
     void pass_on() {
         if (is_holding_) {
             held_.emplace_back(text_); // as large as it is
             text_.clear();
             return;
         }
-        if (file_ == nullptr || !file_->seekable())
+        if (file_ == nullptr)
             return;
-        file_->write(text_);
+        if (file_->seekable())
+            file_->write(text_);
+        else
+            ready_.emplace_back(text_);
         text_.clear();
     }
 
@@ -446,7 +455,8 @@ private:
     std::vector<std::shared_ptr<const DrawingGroup>> groups_;
     bool is_holding_ = false;
     bool is_held_ = false;
-    std::vector<std::string> held_; ///< the fills as text, part by part
+    std::vector<std::string> held_;  ///< the fills as text, part by part
+    std::vector<std::string> ready_; ///< what a pipe gets at the end
 };
 
 } // namespace

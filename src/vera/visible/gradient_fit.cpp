@@ -333,26 +333,39 @@ std::optional<Ellipses> level_ellipses(std::span<const ColorSample> samples, dou
 
 } // namespace
 
-std::vector<ColorSample>
-color_samples(std::span<const DrawingPoint> points, const ColorField& field, double within) {
+ColorSample color_sample(DrawingPoint point, const ColorField& field, double within) {
     // Of three directions, two are never along a level, and one leads in from any border.
     const double side = std::sqrt(0.75);
     const DrawingPoint ways[] = {{1, 0}, {-0.5, side}, {-0.5, -side}};
+    ColorSample sample = {point, field(point)};
+    for (const DrawingPoint way : ways) {
+        const Color there = field({point.x + within * way.x, point.y + within * way.y});
+        const Color change = there - sample.color;
+        sample.slack = std::max(sample.slack, largest_difference(there, sample.color));
+        const double part = 2 / (3 * within);
+        sample.slope_x += part * way.x * change;
+        sample.slope_y += part * way.y * change;
+    }
+    return sample;
+}
+
+std::vector<ColorSample>
+color_samples(std::span<const DrawingPoint> points, const ColorField& field, double within) {
     std::vector<ColorSample> samples;
     samples.reserve(points.size());
-    for (const DrawingPoint point : points) {
-        ColorSample sample = {point, field(point)};
-        for (const DrawingPoint way : ways) {
-            const Color there = field({point.x + within * way.x, point.y + within * way.y});
-            const Color change = there - sample.color;
-            sample.slack = std::max(sample.slack, largest_difference(there, sample.color));
-            const double part = 2 / (3 * within);
-            sample.slope_x += part * way.x * change;
-            sample.slope_y += part * way.y * change;
-        }
-        samples.push_back(sample);
-    }
+    for (const DrawingPoint point : points)
+        samples.push_back(color_sample(point, field, within));
     return samples;
+}
+
+Color color_at(const FittedPaint& paint, DrawingPoint point) {
+    if (paint.gradient)
+        return color_at(*paint.gradient, point);
+    return {paint.color.r / 255.0, paint.color.g / 255.0, paint.color.b / 255.0};
+}
+
+double error_of(const FittedPaint& paint, const ColorSample& sample) {
+    return error_of(sample, color_at(paint, sample.point));
 }
 
 FittedPaint flat_fit(std::span<const ColorSample> samples) {
@@ -365,9 +378,8 @@ FittedPaint flat_fit(std::span<const ColorSample> samples) {
     }
     FittedPaint paint;
     paint.color = drawn_color(0.5 * (least + most));
-    const Color shown = {paint.color.r / 255.0, paint.color.g / 255.0, paint.color.b / 255.0};
     for (const ColorSample& sample : samples)
-        paint.error = std::max(paint.error, error_of(sample, shown));
+        paint.error = std::max(paint.error, error_of(paint, sample));
     return paint;
 }
 

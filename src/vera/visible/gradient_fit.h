@@ -23,7 +23,10 @@ struct ColorSample {
     Color slope_y = {}; ///< and downward
 };
 
-/// The samples at the points. Their slack is how much the field changes within that many pixels.
+/// The sample at the point. Its slack is how much the field changes within that many pixels.
+ColorSample color_sample(DrawingPoint point, const ColorField& field, double within);
+
+/// The samples at the points.
 std::vector<ColorSample>
 color_samples(std::span<const DrawingPoint> points, const ColorField& field, double within);
 
@@ -34,6 +37,12 @@ struct FittedPaint {
     std::optional<Gradient> gradient; ///< in place of the colour
     double error = 0;
 };
+
+/// What the paint shows at the point.
+Color color_at(const FittedPaint& paint, DrawingPoint point);
+
+/// How far off the paint is where the sample is, beyond the sample's slack.
+double error_of(const FittedPaint& paint, const ColorSample& sample);
 
 // All take one sample or more. A fit ends as soon as its error is within the tolerance, and returns
 // the best that was found where that cannot be. Stops are bytes, and the error is that with them.

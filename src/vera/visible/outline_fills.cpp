@@ -93,7 +93,11 @@ private:
 
     bool is_shaded() const { return sources_.style == DrawingStyle::shaded; }
 
-    PaintTolerance tolerance() const { return {sources_.color_tolerance, sources_.deviation}; }
+    PaintTolerance tolerance() const {
+        constexpr double part_amid =
+            0.03; // away from borders light is that steep at its jumps alone
+        return {sources_.color_tolerance, part_amid * sources_.deviation, sources_.deviation};
+    }
 
     std::uint32_t facet_of(std::size_t region) const {
         return sources_.faces.first_facet[regions_.rings(region).front().source];

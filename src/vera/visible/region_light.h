@@ -34,6 +34,9 @@ public:
     /// At a point of the picture where the face is seen; as a screen shows it, from 0 to 1.
     Color operator()(DrawingPoint point) const;
 
+    /// Whether the face is the side of a convex piece.
+    bool is_smooth() const { return convexity_ != Convexity::none; }
+
 private:
     SurfacePoint on_facet(const Ray& ray) const;
     SurfacePoint on_body(const Ray& ray) const;

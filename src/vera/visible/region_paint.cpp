@@ -2,13 +2,13 @@
 #include "vera/visible/region_paint.h"
 
 #include "vera/base/long_loop.h"
+#include "vera/visible/near_border.h"
+#include "vera/visible/region_samples.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
-#include <limits>
 #include <optional>
 #include <span>
 #include <utility>
@@ -16,98 +16,6 @@
 namespace vera {
 
 namespace {
-
-/// Smallest rectangle along the axes.
-struct Extent {
-    DrawingPoint least = {
-        std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-    DrawingPoint most = {
-        -std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-
-    void add(DrawingPoint point) {
-        least = {std::min(least.x, point.x), std::min(least.y, point.y)};
-        most = {std::max(most.x, point.x), std::max(most.y, point.y)};
-    }
-
-    double length() const { return std::max(most.x - least.x, most.y - least.y); }
-};
-
-Extent extent_of(const std::vector<BorderRing>& rings) {
-    Extent extent;
-    for (const BorderRing& ring : rings)
-        for (const DrawingPoint point : ring)
-            extent.add(point);
-    return extent;
-}
-
-double area_of(const std::vector<BorderRing>& rings) {
-    double doubled = 0;
-    for (const BorderRing& ring : rings)
-        for (std::size_t i = 0; i < ring.size(); ++i) {
-            const DrawingPoint next = ring[i + 1 == ring.size() ? 0 : i + 1];
-            doubled += ring[i].x * next.y - ring[i].y * next.x;
-        }
-    return std::abs(doubled) / 2;
-}
-
-/// Calls sink(i) for all whole numbers i with from < step * (i + 1/2) < to.
-template <typename Sink>
-void for_each_step(double from, double to, double step, const Sink& sink) {
-    for (double i = std::floor(from / step + 0.5); step * (i + 0.5) < to; ++i)
-        if (step * (i + 0.5) > from)
-            sink(step * (i + 0.5));
-}
-
-void add_border_points(
-    const std::vector<BorderRing>& rings, double spacing, std::vector<DrawingPoint>& points) {
-    for (const BorderRing& ring : rings)
-        for (std::size_t i = 0; i < ring.size(); ++i) {
-            const DrawingPoint from = ring[i];
-            const DrawingPoint to = ring[i + 1 == ring.size() ? 0 : i + 1];
-            const double x = to.x - from.x;
-            const double y = to.y - from.y;
-            const double parts = std::ceil(std::sqrt(x * x + y * y) / spacing);
-            points.push_back(from);
-            for (double part = 1; part < parts; ++part)
-                points.push_back({from.x + part / parts * x, from.y + part / parts * y});
-        }
-}
-
-void add_inner_points(
-    const std::vector<BorderRing>& rings,
-    const Extent& extent,
-    double spacing,
-    std::vector<DrawingPoint>& points) {
-    // The rows' crossings with the sides, all sides once.
-    const auto rows = static_cast<std::size_t>((extent.most.y - extent.least.y) / spacing) + 1;
-    std::vector<std::vector<double>> crossings(rows);
-    const double top = extent.least.y;
-    for (const BorderRing& ring : rings)
-        for (std::size_t i = 0; i < ring.size(); ++i) {
-            DrawingPoint from = ring[i];
-            DrawingPoint to = ring[i + 1 == ring.size() ? 0 : i + 1];
-            if (from.y > to.y)
-                std::swap(from, to);
-            for_each_step(from.y - top, to.y - top, spacing, [&](double y) {
-                const double part = (top + y - from.y) / (to.y - from.y);
-                const auto row = static_cast<std::size_t>(y / spacing);
-                if (row < rows)
-                    crossings[row].push_back(from.x + part * (to.x - from.x));
-            });
-        }
-    for (std::size_t row = 0; row < rows; ++row) {
-        std::ranges::sort(crossings[row]);
-        const double y = top + spacing * (static_cast<double>(row) + 0.5);
-        for (std::size_t i = 0; i + 1 < crossings[row].size(); i += 2)
-            for_each_step(
-                crossings[row][i] - extent.least.x,
-                crossings[row][i + 1] - extent.least.x,
-                spacing,
-                [&](double x) {
-                    points.push_back({extent.least.x + x, y});
-                });
-    }
-}
 
 /// A line that cuts a region across that direction in the middle, as the half plane on one side of
 /// it, and how long the region is in that direction.
@@ -134,38 +42,25 @@ HalfPlane moved(const HalfPlane& half, double pixels) {
     return {half.normal, half.reach + pixels};
 }
 
-/// Whether the gradient bends so sharply that samples so far apart tell little of where.
-bool bends(const Gradient& gradient, double spacing) {
-    constexpr double sharp = 16; // of 255
-    const auto length_of = [](DrawingPoint way) {
-        return std::sqrt(way.x * way.x + way.y * way.y);
-    };
-    const double axis = std::max(length_of(gradient.axis), length_of(gradient.other_axis));
-    const auto slopes = [&](const GradientStop& from, const GradientStop& to) {
-        const double way = (to.offset - from.offset) * axis;
-        return std::array{
-            (to.color.r - from.color.r) / way,
-            (to.color.g - from.color.g) / way,
-            (to.color.b - from.color.b) / way};
-    };
-    for (std::size_t i = 1; i + 1 < gradient.stops.size(); ++i) {
-        const auto before = slopes(gradient.stops[i - 1], gradient.stops[i]);
-        const auto after = slopes(gradient.stops[i], gradient.stops[i + 1]);
-        for (std::size_t channel = 0; channel < 3; ++channel)
-            if (std::abs(after[channel] - before[channel]) * spacing > sharp)
-                return true;
-    }
-    return false;
+/// Whether what is shown changes much within that distance.
+bool is_steep(const FittedPaint& paint, DrawingPoint point, double distance) {
+    constexpr double steep = 8.0 / 255;
+    if (!paint.gradient)
+        return false;
+    const ColorField shown = [&](DrawingPoint at) { return color_at(paint, at); };
+    return color_sample(point, shown, distance).slack > steep;
 }
 
 class RegionPainter {
 public:
     RegionPainter(
+        const PaintedRegion& whole,
         const ColorField& field,
         const PaintTolerance& tolerance,
         std::span<const DrawingEllipse> curves,
         const CancelFlag* cancel)
-        : field_(field)
+        : near_border_(whole.rings)
+        , field_(field)
         , tolerance_(tolerance)
         , curves_(curves)
         , cancel_(cancel) {}
@@ -176,9 +71,8 @@ public:
             return;
         std::vector<ColorSample> samples;
         const FittedPaint best = best_paint(region, length, cuts, samples);
-        const std::optional<HalfPlane> half = best.error <= tolerance_.color || cuts == most_cuts
-            ? std::nullopt
-            : best_cut(samples, best);
+        const std::optional<HalfPlane> half =
+            fits(best) || cuts == most_cuts ? std::nullopt : best_cut(samples, best);
         if (!half) {
             finish(std::move(region), best);
             return;
@@ -196,43 +90,103 @@ public:
     std::vector<FilledOutline> take() { return std::move(painted_); }
 
 private:
-    static constexpr double shortest_cut = 1; ///< pixels
-    static constexpr double overlap = 1;      ///< pixels
-    static constexpr int most_cuts = 16;      ///< one after the other
+    static constexpr double shortest_cut = 1;       ///< pixels
+    static constexpr double overlap = 1;            ///< pixels
+    static constexpr int most_cuts = 16;            ///< one after the other
+    static constexpr std::uint64_t most_rounds = 3; ///< of places added to samples
+
+    /// Of the tolerance that which samples may take: between them colours are off by a little more.
+    static constexpr double part_of_samples = 0.95;
+
+    double tolerance_of_samples() const { return part_of_samples * tolerance_.color; }
+
+    bool fits(const FittedPaint& paint) const { return paint.error <= tolerance_of_samples(); }
 
     /// The paint that fits best, and the samples that tell so: few where few suffice to see that
-    /// none fits, more where a gradient bends between them.
+    /// none fits. One that fits is looked at in many more places; where it is off there, these are
+    /// samples as well, and after some rounds it does not fit.
     FittedPaint best_paint(
         const PaintedRegion& region,
         double length,
         int cuts,
         std::vector<ColorSample>& samples) const {
         constexpr double pixel = 1;
+        constexpr double closest = 0.4; // pixels
         const double fine = sample_spacing(length, area_of(region.rings));
         const double coarse = std::max(length / 12, fine);
         samples = samples_of(region, coarse);
         if (cuts == 0 && length < pixel)
             return flat_fit(samples);
         FittedPaint best = best_paint(samples);
-        if (coarse > fine && best.error <= tolerance_.color) {
+        if (coarse > fine && fits(best)) {
             samples = samples_of(region, fine);
             best = best_paint(samples);
         }
-        if (best.error <= tolerance_.color && best.gradient && bends(*best.gradient, fine)) {
-            samples = samples_of(region, fine / 3);
-            best = best_paint(samples);
+        const double spacing = std::max(closest, 0.35 * fine);
+        for (std::uint64_t round = 0; fits(best); ++round) {
+            const std::vector<ColorSample> off =
+                where_off(best, places_to_check(region, best, spacing, round));
+            if (off.empty())
+                break;
+            samples.insert(samples.end(), off.begin(), off.end());
+            if (round < most_rounds)
+                best = best_paint(samples);
+            else
+                best.error = error_of(best, off.front());
         }
         return best;
     }
 
     std::vector<ColorSample> samples_of(const PaintedRegion& region, double spacing) const {
         stop_if_raised(cancel_);
-        return color_samples(sample_points(region.rings, spacing), field_, tolerance_.within);
+        std::vector<ColorSample> samples;
+        for (const DrawingPoint point : sample_points(region.rings, spacing))
+            samples.push_back(sample_at(point));
+        return samples;
+    }
+
+    ColorSample sample_at(DrawingPoint point) const {
+        const bool is_near = near_border_.includes(point);
+        return color_sample(point, field_, is_near ? tolerance_.at_border : tolerance_.within);
+    }
+
+    /// Points so far apart or, where the paint is steep, a quarter of that: what lies between two
+    /// stops of very different colours is known at these alone.
+    static std::vector<DrawingPoint> places_to_check(
+        const PaintedRegion& region,
+        const FittedPaint& paint,
+        double spacing,
+        std::uint64_t round) {
+        std::vector<DrawingPoint> places = scattered_points(region.rings, spacing, round);
+        if (!paint.gradient)
+            return places;
+        constexpr double closest = 0.2; // pixels
+        constexpr double part = 0.25;
+        for (const DrawingPoint point : scattered_points(
+                 region.rings, std::max(part * spacing, closest), most_rounds + 1 + round))
+            if (is_steep(paint, point, spacing))
+                places.push_back(point);
+        return places;
+    }
+
+    /// Samples at those of the points where the paint does not fit.
+    std::vector<ColorSample>
+    where_off(const FittedPaint& paint, const std::vector<DrawingPoint>& points) const {
+        std::vector<ColorSample> off;
+        for (const DrawingPoint point : points) {
+            // Its slack, which takes three times as long, matters at few.
+            if (error_of(paint, {point, field_(point)}) <= tolerance_of_samples())
+                continue;
+            const ColorSample sample = sample_at(point);
+            if (error_of(paint, sample) > tolerance_of_samples())
+                off.push_back(sample);
+        }
+        return off;
     }
 
     FittedPaint best_paint(std::span<const ColorSample> samples) const {
         stop_if_raised(cancel_);
-        return best_fit(samples, tolerance_.color);
+        return best_fit(samples, tolerance_of_samples());
     }
 
     /// Of a cut along the gradient that fits best and one across it, that whose parts fit better;
@@ -263,7 +217,8 @@ private:
         }
         double worst = 0;
         for (const std::vector<ColorSample>& part : parts)
-            worst = std::max(worst, part.empty() ? 1 : linear_fit(part, tolerance_.color).error);
+            worst =
+                std::max(worst, part.empty() ? 1 : linear_fit(part, tolerance_of_samples()).error);
         return worst;
     }
 
@@ -286,6 +241,7 @@ private:
         painted_.push_back(std::move(region.outline));
     }
 
+    NearBorder near_border_; ///< of the whole region
     const ColorField& field_;
     const PaintTolerance& tolerance_;
     std::span<const DrawingEllipse> curves_;
@@ -301,26 +257,13 @@ void add_rings(PaintedRegion& region, std::span<const DrawingEllipse> curves) {
             add_ring(ring, curves, region.outline);
 }
 
-double sample_spacing(double length, double area) {
-    constexpr double widest = 6; // pixels: highlights are not much smaller
-    const double across = std::max(area / length / 2, length / 64);
-    return std::max(std::min({length / 4, across, widest}), length / 128);
-}
-
-std::vector<DrawingPoint> sample_points(const std::vector<BorderRing>& rings, double spacing) {
-    std::vector<DrawingPoint> points;
-    add_border_points(rings, spacing, points);
-    add_inner_points(rings, extent_of(rings), spacing, points);
-    return points;
-}
-
 std::vector<FilledOutline> painted(
     PaintedRegion region,
     const ColorField& field,
     const PaintTolerance& tolerance,
     std::span<const DrawingEllipse> curves,
     const CancelFlag* cancel) {
-    RegionPainter painter(field, tolerance, curves, cancel);
+    RegionPainter painter(region, field, tolerance, curves, cancel);
     painter.paint(std::move(region), 0);
     return painter.take();
 }

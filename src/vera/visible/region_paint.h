@@ -22,20 +22,13 @@ struct PaintedRegion {
 void add_rings(PaintedRegion& region, std::span<const DrawingEllipse> curves);
 
 /// How well a paint is to agree with its field: at each place with what the field is there, or not
-/// farther than `within` away.
+/// farther than `within` away; at_border holds where the border of the region is nearer than half a
+/// pixel, as along silhouettes of curved surfaces colours change without bound.
 struct PaintTolerance {
     double color = 1.0 / 255; ///< in any of red, green and blue, 1 for 255
-    double within = 0.1;      ///< pixels
+    double within = 0.003;    ///< pixels
+    double at_border = 0.1;   ///< pixels
 };
-
-/// How far apart the points are at which the paint of a region of that length, along x or y, and
-/// area is compared with its field: 6 pixels or less, a quarter of the length of small regions and
-/// half the width of narrow ones, but no less than a 64th of the length of narrow ones and a 128th
-/// of that of large ones.
-double sample_spacing(double length, double area);
-
-/// Points of the areas: the corners, and of borders and areas points so far apart at most.
-std::vector<DrawingPoint> sample_points(const std::vector<BorderRing>& rings, double spacing);
 
 /// The region with a colour or gradient, or cut by lines into parts that have one each, so that
 /// all agree with the field at samples of that spacing. What is less than a pixel long is not cut,

@@ -20,7 +20,10 @@ namespace {
 std::vector<FilledOutline> shaded_outline(LitOutline lit, const ShadedScene& shaded) {
     const RegionLight light(
         shaded.scene, shaded.camera, shaded.picture, shaded.facets, lit.facet, lit.lights);
-    return painted(std::move(lit.region), light, shaded.tolerance, shaded.curves, shaded.cancel);
+    PaintTolerance tolerance = shaded.tolerance;
+    if (!light.is_smooth()) // most borders of facets are none of the surface
+        tolerance.at_border = tolerance.within;
+    return painted(std::move(lit.region), light, tolerance, shaded.curves, shaded.cancel);
 }
 
 /// Where the rays of the picture go up.

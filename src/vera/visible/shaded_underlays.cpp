@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/shaded_underlays.h"
 
+#include "vera/base/free_room.h"
 #include "vera/base/long_loop.h"
 #include "vera/base/progress_part.h"
 #include "vera/visible/covered_areas.h"
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <span>
 #include <utility>
 
@@ -27,6 +29,9 @@ constexpr std::size_t few_regions = 16;
 /// By how much an underlay may differ from the light in the middles of regions, 1 for 255. What
 /// comes through of it is a quarter, where two edges share a pixel.
 constexpr double rough = 8.0 / 255;
+
+/// Up to which it is fitted: more stops would show nothing.
+constexpr double fitted = 4.0 / 255;
 
 DrawingPoint middle_of(const BorderRing& ring) {
     DrawingPoint middle;
@@ -54,7 +59,8 @@ class UnderlayPainter {
 public:
     UnderlayPainter(
         double tolerance, std::span<const DrawingEllipse> curves, const CancelFlag* cancel)
-        : tolerance_(tolerance)
+        : fitted_(std::max(fitted, tolerance))
+        , rough_(std::max(rough, tolerance))
         , curves_(curves)
         , cancel_(cancel) {}
 
@@ -63,8 +69,8 @@ public:
         stop_if_raised(cancel_);
         if (rings.empty())
             return;
-        const FittedPaint best = best_fit(samples, tolerance_);
-        if (best.error <= std::max(rough, tolerance_) || samples.size() < few_regions) {
+        const FittedPaint best = best_fit(samples, fitted_);
+        if (best.error <= rough_ || samples.size() < few_regions) {
             add(rings, best);
             return;
         }
@@ -92,7 +98,8 @@ private:
             add_ring(ring, curves_, underlay);
     }
 
-    double tolerance_;
+    double fitted_;
+    double rough_;
     std::span<const DrawingEllipse> curves_;
     const CancelFlag* cancel_;
     std::vector<FilledOutline> underlays_;
@@ -107,10 +114,8 @@ std::vector<FilledOutline> shaded_underlays(
     const CancelFlag* cancel) {
     StageProgress stages(progress, 4);
     const CoveredAreas areas = covered_areas(regions.map(), stages.next(2), cancel);
-    std::vector<std::vector<ColorSample>> samples(areas.outlines.size());
-    const LongLoop loop(regions.count(), stages.next(1), cancel, 256);
-    for (std::size_t i = 0; i < regions.count(); ++i) {
-        loop.turn(i);
+    std::vector<ColorSample> middles(regions.count());
+    long_parallel_loop(regions.count(), stages.next(1), cancel, 64, [&](std::size_t i) {
         const std::uint32_t face = regions.rings(i).front().source;
         const RegionLight light(
             sources.scene,
@@ -120,20 +125,27 @@ std::vector<FilledOutline> shaded_underlays(
             sources.faces.first_facet[face],
             ~sources.map.regions[i].unlit);
         const DrawingPoint middle = middle_of(regions.borders(i).front());
-        samples[areas.of_source[face]].push_back({middle, light(middle)});
-    }
-    UnderlayPainter painter(sources.color_tolerance, regions.curves().all(), cancel);
-    const LongLoop of_areas(samples.size(), stages.next(1), cancel, 16);
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-        of_areas.turn(i);
+        middles[i] = {middle, light(middle)};
+    });
+    std::vector<std::vector<ColorSample>> samples(areas.outlines.size());
+    for (std::size_t i = 0; i < regions.count(); ++i)
+        samples[areas.of_source[regions.rings(i).front().source]].push_back(middles[i]);
+    free_room(middles);
+    std::vector<std::vector<FilledOutline>> underlays(samples.size());
+    long_parallel_loop(samples.size(), stages.next(1), cancel, 1, [&](std::size_t i) {
         if (samples[i].size() < least_regions)
-            continue;
+            return;
         std::vector<BorderRing> rings;
         for (const std::vector<std::uint32_t>& way : areas.outlines[i])
             rings.push_back(regions.border(way));
+        UnderlayPainter painter(sources.color_tolerance, regions.curves().all(), cancel);
         painter.paint(rings, samples[i]);
-    }
-    return painter.take();
+        underlays[i] = painter.take();
+    });
+    std::vector<FilledOutline> all;
+    for (std::vector<FilledOutline>& of_area : underlays)
+        std::ranges::move(of_area, std::back_inserter(all));
+    return all;
 }
 
 } // namespace vera

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vera/visible/near_border.h"
+#include "vera/visible/region_paint.h"
+#include "vera/visible/region_samples.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <random>
+#include <vector>
+
+#include "visible/painted_color.h"
+#include <gtest/gtest.h>
+
+namespace vera {
+namespace {
+
+constexpr double tolerance = 1.0 / 255;
+
+/// A triangle with corners of few values, among them ones without area, and now and then one more.
+std::vector<BorderRing> random_rings(std::mt19937& random) {
+    std::vector<BorderRing> rings(1 + random() % 2);
+    for (BorderRing& ring : rings)
+        for (int i = 0; i < 3; ++i) {
+            BorderPoint point;
+            point.x = 4.0 * static_cast<double>(random() % 4);
+            point.y = 3.0 * static_cast<double>(random() % 4);
+            ring.push_back(point);
+        }
+    return rings;
+}
+
+double distance_to_side(DrawingPoint point, DrawingPoint a, DrawingPoint b) {
+    double least = 1e9;
+    constexpr int steps = 2000;
+    for (int i = 0; i <= steps; ++i) {
+        const double part = static_cast<double>(i) / steps;
+        least = std::min(
+            least,
+            std::hypot(a.x + part * (b.x - a.x) - point.x, a.y + part * (b.y - a.y) - point.y));
+    }
+    return least;
+}
+
+TEST(NearBorder, IncludesWhatIsNearerThanHalfAPixel) {
+    std::mt19937 random(11);
+    int inside = 0;
+    for (int round = 0; round < 40; ++round) {
+        const std::vector<BorderRing> rings = random_rings(random);
+        const NearBorder border(rings);
+        for (int i = 0; i < 25; ++i) {
+            const double x = 0.25 * static_cast<double>(random() % 53) + 0.1;
+            const double y = 0.25 * static_cast<double>(random() % 41) + 0.1;
+            double least = 1e9;
+            for (const BorderRing& ring : rings)
+                for (std::size_t k = 0; k < ring.size(); ++k)
+                    least = std::min(
+                        least, distance_to_side({x, y}, ring[k], ring[(k + 1) % ring.size()]));
+            if (std::abs(least - 0.5) < 0.01 || extent_of(rings).length() <= 1)
+                continue;
+            const Extent extent = extent_of(rings);
+            if (x < extent.least.x || x > extent.most.x || y < extent.least.y || y > extent.most.y)
+                continue;
+            EXPECT_EQ(border.includes({x, y}), least < 0.5) << x << ' ' << y;
+            inside += least < 0.5 ? 1 : 0;
+        }
+    }
+    EXPECT_GT(inside, 30);
+}
+
+TEST(NearBorder, IncludesAllOfWhatIsSmall) {
+    const std::vector<BorderRing> rings = {{{0, 0}, {0.9, 0}, {0.9, 0.9}}};
+    EXPECT_TRUE(NearBorder(rings).includes({0.5, 0.2}));
+}
+
+TEST(ScatteredPoints, AreOneForEachSquareAndInNoRowsOrColumns) {
+    const std::vector<BorderRing> square = {{{0, 0}, {90, 0}, {90, 90}, {0, 90}}};
+    const std::vector<DrawingPoint> points = scattered_points(square, 3, 0);
+    EXPECT_NEAR(static_cast<double>(points.size()), 900, 60);
+    // Every strip of a third of the spacing has some, along both axes.
+    for (const auto axis : {&DrawingPoint::x, &DrawingPoint::y}) {
+        std::vector<int> strips(90);
+        for (const DrawingPoint& point : points)
+            ++strips[static_cast<std::size_t>(point.*axis)];
+        EXPECT_GT(*std::ranges::min_element(strips), 0);
+    }
+    const std::vector<DrawingPoint> others = scattered_points(square, 3, 1);
+    EXPECT_NE(points.front().x, others.front().x);
+    EXPECT_EQ(points, scattered_points(square, 3, 0));
+}
+
+TEST(ScatteredPoints, LieInside) {
+    std::mt19937 random(12);
+    std::size_t all = 0;
+    for (int round = 0; round < 40; ++round) {
+        const std::vector<BorderRing> rings = {random_rings(random).front()};
+        FilledOutline outline;
+        outline.rings.emplace_back(rings.front().begin(), rings.front().end());
+        const auto points = scattered_points(rings, 1, static_cast<std::uint64_t>(round));
+        all += points.size();
+        for (const DrawingPoint& point : points)
+            EXPECT_NE(testing::turns_about(testing::flattened_rings(outline), point), 0);
+    }
+    EXPECT_GT(all, 400U);
+}
+
+struct Off {
+    int points = 0;
+    int off = 0; ///< by more than the tolerance
+    double most = 0;
+};
+
+/// How far off the paint of a square is.
+void compare(const ColorField& field, double size, Off& result) {
+    PaintedRegion region;
+    region.rings = {{{0, 0}, {size, 0}, {size, size}, {0, size}}};
+    const auto fills = painted(region, field, {});
+    for (double y = 0.3; y < size; y += 0.7)
+        for (double x = 0.4; x < size; x += 0.7) {
+            const Color is = field({x, y});
+            const Color shown = testing::painted_color(fills, {x, y}).value_or(Color{9, 9, 9});
+            const double off = std::max(
+                {std::abs(is.r - shown.r), std::abs(is.g - shown.g), std::abs(is.b - shown.b)});
+            ++result.points;
+            result.off += off > tolerance ? 1 : 0;
+            result.most = std::max(result.most, off);
+        }
+}
+
+TEST(RegionPaint, FindsSpotsThatAreSmallerThanTheDistanceOfSamples) {
+    std::mt19937 random(13);
+    Off off;
+    for (int round = 0; round < 30; ++round) {
+        const double x = 10 + 5 * static_cast<double>(random() % 9);
+        const double y = 10 + 5 * static_cast<double>(random() % 9);
+        const double radius = 3 + static_cast<double>(random() % 2);
+        const ColorField field = [&](DrawingPoint at) {
+            const double far = std::hypot(at.x - x, at.y - y) / radius;
+            const double light = far < 1 ? (1 - far * far) * (1 - far * far) : 0;
+            return Color{0.2 + 0.5 * light, 0.3, 0.3 + 0.001 * at.x};
+        };
+        compare(field, 60, off);
+    }
+    EXPECT_LT(off.off, off.points / 2000);
+    EXPECT_LT(off.most, 8 * tolerance);
+}
+
+TEST(RegionPaint, SeesBendsAlongRowsAndColumns) {
+    Off off;
+    for (const bool along_rows : {false, true})
+        for (int i = 0; i < 12; ++i) {
+            const ColorField field = [&](DrawingPoint at) {
+                const double way = along_rows ? at.y : at.x;
+                return clamped(Color{0.1 * (way - 17 - 0.31 * i), 0.02 * way, 0.5});
+            };
+            compare(field, 40, off);
+        }
+    EXPECT_LT(off.off, off.points / 1000);
+    EXPECT_LT(off.most, 4 * tolerance);
+}
+
+} // namespace
+} // namespace vera
