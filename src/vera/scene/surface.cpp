@@ -157,25 +157,6 @@ local_surface(const Geometry& geometry, Element element, std::uint32_t piece, Ve
     return {};
 }
 
-/// The place in the main scene's coordinates.
-SurfacePoint carried(const PrimitivePath& path, const SurfacePoint& local) {
-    SurfacePoint world;
-    world.point = transformed_point(path.to_world, local.point);
-    const Vec3 size = abs(local.point);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const Vec3 row = abs(path.to_world.linear.rows[axis]);
-        // Each level's map and its inverse add their rounding to those of the composed ones.
-        const double rounding = static_cast<double>(path.depth + 1) * 0x1p-48
-            * (dot(row, size) + std::abs(path.to_world.translation[axis]));
-        const double carried_error = local.point_error * (row.x + row.y + row.z);
-        world.point_error = std::max(world.point_error, rounding + carried_error);
-    }
-    const Matrix3& inverse = path.from_world.linear;
-    world.geometric_normal = normalized(transposed_times(inverse, local.geometric_normal));
-    world.shading_normal = normalized(transposed_times(inverse, local.shading_normal));
-    return world;
-}
-
 } // namespace
 
 PrimitivePath path_to(const Scene& scene, std::uint64_t primitive) {
@@ -202,6 +183,30 @@ PrimitivePath path_to(const Scene& scene, std::uint64_t primitive) {
     }
 }
 
+SurfacePoint surface_within(const PrimitivePath& path, std::uint32_t piece, Vec3 local_point) {
+    return local_surface(*path.geometry, path.element, piece, local_point);
+}
+
+SurfacePoint carried_to_main_scene(const PrimitivePath& path, const SurfacePoint& local) {
+    if (path.in_main_scene)
+        return local;
+    SurfacePoint world;
+    world.point = transformed_point(path.to_world, local.point);
+    const Vec3 size = abs(local.point);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const Vec3 row = abs(path.to_world.linear.rows[axis]);
+        // Each level's map and its inverse add their rounding to those of the composed ones.
+        const double rounding = static_cast<double>(path.depth + 1) * 0x1p-48
+            * (dot(row, size) + std::abs(path.to_world.translation[axis]));
+        const double carried_error = local.point_error * (row.x + row.y + row.z);
+        world.point_error = std::max(world.point_error, rounding + carried_error);
+    }
+    const Matrix3& inverse = path.from_world.linear;
+    world.geometric_normal = normalized(transposed_times(inverse, local.geometric_normal));
+    world.shading_normal = normalized(transposed_times(inverse, local.shading_normal));
+    return world;
+}
+
 namespace {
 
 SurfacePoint
@@ -217,8 +222,7 @@ surface_in_main_scene(const Scene& scene, PrimitiveLocation location, Vec3 point
 [[gnu::noinline]] SurfacePoint surface_in_subscene(const Scene& scene, Vec3 point, FaceId face) {
     const PrimitivePath path = path_to(scene, face.primitive);
     const Vec3 local_point = transformed_point(path.from_world, point);
-    SurfacePoint at =
-        carried(path, local_surface(*path.geometry, path.element, face.piece, local_point));
+    SurfacePoint at = carried_to_main_scene(path, surface_within(path, face.piece, local_point));
     at.material = path.material;
     at.face = face;
     return at;

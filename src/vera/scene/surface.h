@@ -35,4 +35,11 @@ struct PrimitivePath {
 
 PrimitivePath path_to(const Scene& scene, std::uint64_t primitive);
 
+/// The place on that piece of the primitive's face that a point near it stands for, both in the
+/// coordinates of path.geometry.
+SurfacePoint surface_within(const PrimitivePath& path, std::uint32_t piece, Vec3 local_point);
+
+/// The same place in the main scene's coordinates.
+SurfacePoint carried_to_main_scene(const PrimitivePath& path, const SurfacePoint& local);
+
 } // namespace vera

@@ -38,15 +38,15 @@ RegionLight::RegionLight(
     , height_(picture.height)
     , ambient_(picture.ambient)
     , facet_(facets.triangles[first_facet])
+    , path_(path_to(scene, facet_.primitive))
     , corner_(facets.corners[facet_.corners[0]])
     , normal_(normalized(cross(
           facets.corners[facet_.corners[1]] - corner_,
           facets.corners[facet_.corners[2]] - corner_)))
     , lights_(lights) {
-    const PrimitivePath path = path_to(scene, facet_.primitive);
-    const ItemKind kind = path.geometry->items[path.element.item].kind;
+    const ItemKind kind = path_.geometry->items[path_.element.item].kind;
     is_curved_ = kind == ItemKind::sphere || kind == ItemKind::rotational_shape;
-    convexity_ = convexity(path, facet_.piece);
+    convexity_ = convexity(path_, facet_.piece);
     shows_outside_ =
         dot(normal_,
             camera.projection == Camera::Projection::parallel ? camera.direction
@@ -77,11 +77,10 @@ Color RegionLight::operator()(DrawingPoint point) const {
 
 SurfacePoint RegionLight::on_facet(const Ray& ray) const {
     const double speed = dot(normal_, ray.direction);
-    Hit hit;
-    hit.face = {facet_.primitive, facet_.piece};
-    hit.t = speed == 0 ? dot(corner_ - ray.origin, ray.direction)
-                       : dot(normal_, corner_ - ray.origin) / speed;
-    SurfacePoint surface = surface_at(scene_, ray, hit);
+    const double t = speed == 0 ? dot(corner_ - ray.origin, ray.direction)
+                                : dot(normal_, corner_ - ray.origin) / speed;
+    const Vec3 place = transformed_point(path_.from_world, point_at(ray, t));
+    SurfacePoint surface = carried_to_main_scene(path_, surface_within(path_, facet_.piece, place));
     if (is_curved_)
         turn_towards_viewer(surface, ray.direction, speed < 0);
     return surface;
@@ -96,20 +95,20 @@ SurfacePoint RegionLight::on_body(const Ray& ray) const {
     const bool enters = shows_outside_ == (convexity_ == Convexity::outwards);
     const double forward = enters ? 1 : -1;
     const double turned = convexity_ == Convexity::outwards ? 1 : -1;
-    Hit hit;
-    hit.face = {facet_.primitive, facet_.piece};
+    const Ray local = transformed_ray(path_.from_world, ray);
     // Not quite from a place that a scene of round numbers might have on an axis.
-    hit.t = dot(corner_ - ray.origin, ray.direction) - 1.0127 * forward * reach_;
-    SurfacePoint surface = surface_at(scene_, ray, hit);
+    double t = dot(corner_ - ray.origin, ray.direction) - 1.0127 * forward * reach_;
+    SurfacePoint surface = surface_within(path_, facet_.piece, point_at(local, t));
     for (int i = 0; i < most_steps; ++i) {
         const Vec3 outwards = turned * surface.geometric_normal;
-        const double off = dot(outwards, point_at(ray, hit.t) - surface.point);
-        const double speed = -forward * dot(outwards, ray.direction);
+        const double off = dot(outwards, point_at(local, t) - surface.point);
+        const double speed = -forward * dot(outwards, local.direction);
         if (!(speed > 0 && off > nearest * speed * reach_))
             break;
-        hit.t += forward * off / speed;
-        surface = surface_at(scene_, ray, hit);
+        t += forward * off / speed;
+        surface = surface_within(path_, facet_.piece, point_at(local, t));
     }
+    surface = carried_to_main_scene(path_, surface);
     turn_towards_viewer(surface, ray.direction, shows_outside_);
     return surface;
 }

@@ -47,6 +47,7 @@ private:
     double height_;
     Color ambient_;
     Facets::Triangle facet_;
+    PrimitivePath path_;
     Vec3 corner_;
     Vec3 normal_; ///< of the facet's plane, unit, towards the outside
     bool shows_outside_ = true;

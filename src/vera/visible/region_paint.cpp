@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdlib>
 #include <iterator>
 #include <optional>
 #include <span>
@@ -42,11 +43,32 @@ HalfPlane moved(const HalfPlane& half, double pixels) {
     return {half.normal, half.reach + pixels};
 }
 
-/// Whether what is shown changes much within that distance.
+constexpr double steep = 8.0 / 255;
+
+/// Whether what is shown may change that much within that distance somewhere: not where its largest
+/// change a pixel tells so.
+bool may_be_steep(const Gradient& gradient, double distance) {
+    const DrawingPoint a = gradient.axis;
+    const DrawingPoint b = gradient.other_axis;
+    const double size = a.x * a.x + a.y * a.y;
+    // How far apart the levels 0 and 1 are at least: of an ellipse its half minor axis, or less.
+    const double apart = gradient.shape == Gradient::Shape::linear
+        ? std::sqrt(size)
+        : std::abs(a.x * b.y - a.y * b.x) / std::sqrt(size + b.x * b.x + b.y * b.y);
+    for (std::size_t i = 1; i < gradient.stops.size(); ++i) {
+        const GradientStop& from = gradient.stops[i - 1];
+        const GradientStop& to = gradient.stops[i];
+        const int change = std::max(
+            {std::abs(from.color.r - to.color.r),
+             std::abs(from.color.g - to.color.g),
+             std::abs(from.color.b - to.color.b)});
+        if (change * distance > 255 * steep * apart * (to.offset - from.offset))
+            return true;
+    }
+    return false;
+}
+
 bool is_steep(const FittedPaint& paint, DrawingPoint point, double distance) {
-    constexpr double steep = 8.0 / 255;
-    if (!paint.gradient)
-        return false;
     const ColorField shown = [&](DrawingPoint at) { return color_at(paint, at); };
     return color_sample(point, shown, distance).slack > steep;
 }
@@ -94,6 +116,8 @@ private:
     static constexpr double overlap = 1;            ///< pixels
     static constexpr int most_cuts = 16;            ///< one after the other
     static constexpr std::uint64_t most_rounds = 3; ///< of places added to samples
+
+    static constexpr std::size_t enough_off = 200; ///< places added in a round, at most
 
     /// Of the tolerance that which samples may take: between them colours are off by a little more.
     static constexpr double part_of_samples = 0.95;
@@ -158,7 +182,7 @@ private:
         double spacing,
         std::uint64_t round) {
         std::vector<DrawingPoint> places = scattered_points(region.rings, spacing, round);
-        if (!paint.gradient)
+        if (!paint.gradient || !may_be_steep(*paint.gradient, spacing))
             return places;
         constexpr double closest = 0.2; // pixels
         constexpr double part = 0.25;
@@ -169,18 +193,23 @@ private:
         return places;
     }
 
-    /// Samples at those of the points where the paint does not fit.
+    /// Samples at some of the points where the paint does not fit; at none only if it fits at all.
     std::vector<ColorSample>
     where_off(const FittedPaint& paint, const std::vector<DrawingPoint>& points) const {
+        // The slack of a sample, which takes three times as long, matters at few.
+        std::vector<DrawingPoint> doubtful;
+        for (const DrawingPoint point : points)
+            if (error_of(paint, {point, field_(point)}) > tolerance_of_samples())
+                doubtful.push_back(point);
+        // Where many are off, some of them tell the next fit as much.
+        const std::size_t step = doubtful.size() / enough_off + 1;
         std::vector<ColorSample> off;
-        for (const DrawingPoint point : points) {
-            // Its slack, which takes three times as long, matters at few.
-            if (error_of(paint, {point, field_(point)}) <= tolerance_of_samples())
-                continue;
-            const ColorSample sample = sample_at(point);
-            if (error_of(paint, sample) > tolerance_of_samples())
-                off.push_back(sample);
-        }
+        for (std::size_t first = 0; first < step && off.empty(); ++first)
+            for (std::size_t i = first; i < doubtful.size(); i += step) {
+                const ColorSample sample = sample_at(doubtful[i]);
+                if (error_of(paint, sample) > tolerance_of_samples())
+                    off.push_back(sample);
+            }
         return off;
     }
 
