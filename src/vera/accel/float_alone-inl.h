@@ -172,7 +172,7 @@ HWY_INLINE bool follow_single(AloneSearch<Tree>& search, std::size_t octant, Sin
                     return false;
                 continue;
             }
-            next = node.children[static_cast<std::size_t>(std::countr_zero(met))];
+            next = node.children[foreseen(static_cast<std::size_t>(std::countr_zero(met)))];
             if ((met &= met - 1) == 0)
                 continue;
             if constexpr (any) {
@@ -181,7 +181,7 @@ HWY_INLINE bool follow_single(AloneSearch<Tree>& search, std::size_t octant, Sin
                     *--top = node.children[static_cast<std::size_t>(std::countr_zero(met))];
             } else {
                 const PutChildren put = put_met_children(node, octant, near_at, far_at, stack.end);
-                next = put.first;
+                next = node.children[foreseen(put.first)];
                 stack.end += put.count - 1;
                 fetch(tree, stack.end[-1]);
             }
