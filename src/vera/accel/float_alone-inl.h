@@ -94,6 +94,53 @@ HWY_INLINE bool visit_leaf(AloneSearch<Tree>& search, const TreeChild& leaf, Sin
     return false;
 }
 
+// Where a ray goes on from a node of which it meets some children, as bits; false when nothing is
+// left. With jumps, which the processor follows before it knows, it has the memory of what is next
+// under way. Of most nodes one child is met, which need not wait on the stack.
+
+/// At the first one.
+HWY_INLINE bool
+go_to_first(const WideNode& node, std::uint32_t met, SingleStack<true>& stack, TreeChild& next) {
+    if (met == 0)
+        return stack.take(0, next);
+    next = node.children[foreseen(static_cast<std::size_t>(std::countr_zero(met)))];
+    std::uint32_t others = met & (met - 1);
+    stack.end += std::popcount(others);
+    for (TreeChild* top = stack.end; others != 0; others &= others - 1)
+        *--top = node.children[static_cast<std::size_t>(std::countr_zero(others))];
+    return true;
+}
+
+/// At the nearest one; near_at and far_at as in put_met_children().
+template <typename Tree, typename NearAt, typename FarAt>
+HWY_INLINE bool go_to_nearest(
+    const Tree& tree,
+    const WideNode& node,
+    std::uint32_t met,
+    std::size_t octant,
+    const NearAt& near_at,
+    const FarAt& far_at,
+    float limit,
+    SingleStack<false>& stack,
+    TreeChild& next) {
+    // One jump for all that there may be: none, several, or which one.
+    constexpr std::size_t none = tree_width;
+    constexpr std::size_t several = tree_width + 1;
+    const auto first = static_cast<std::size_t>(std::countr_zero(met | 1U << none));
+    const std::size_t way = foreseen((met & (met - 1)) != 0 ? several : first);
+    if (way == none)
+        return stack.take(limit, next);
+    if (way != several) {
+        next = node.children[way];
+        return true;
+    }
+    const PutChildren put = put_met_children(node, octant, near_at, far_at, stack.end);
+    next = node.children[foreseen(put.first)];
+    stack.end += put.count - 1;
+    fetch(tree, stack.end[-1]);
+    return true;
+}
+
 /// Follows one ray of an octant down from the root; true when it is only asked whether it meets
 /// anything, and it does.
 template <bool any, typename Tree>
@@ -165,26 +212,14 @@ HWY_INLINE bool follow_single(AloneSearch<Tree>& search, std::size_t octant, Sin
             std::uint32_t met = 0;
             for (std::size_t i = 0; i < tree_width; i += hn::Lanes(d))
                 met |= bits_of(d, hn::Le(near_at(i), far_at(i))) << i;
-            // With branches, which the processor follows before it knows, it has the memory of what
-            // is next under way. Of most nodes one child is met, which need not wait on the stack.
-            if (met == 0) {
-                if (!stack.take(ray.limit, next))
-                    return false;
-                continue;
-            }
-            next = node.children[foreseen(static_cast<std::size_t>(std::countr_zero(met)))];
-            if ((met &= met - 1) == 0)
-                continue;
-            if constexpr (any) {
-                stack.end += std::popcount(met);
-                for (TreeChild* top = stack.end; met != 0; met &= met - 1)
-                    *--top = node.children[static_cast<std::size_t>(std::countr_zero(met))];
-            } else {
-                const PutChildren put = put_met_children(node, octant, near_at, far_at, stack.end);
-                next = node.children[foreseen(put.first)];
-                stack.end += put.count - 1;
-                fetch(tree, stack.end[-1]);
-            }
+            bool left = false;
+            if constexpr (any)
+                left = go_to_first(node, met, stack, next);
+            else
+                left =
+                    go_to_nearest(tree, node, met, octant, near_at, far_at, ray.limit, stack, next);
+            if (!left)
+                return false;
         }
         if (visit_leaf<any>(search, next, ray))
             return true;

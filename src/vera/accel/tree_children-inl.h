@@ -62,10 +62,13 @@ constexpr auto plane_places = [] {
     return places;
 }();
 
-/// The number, below tree_width, by a jump that the processor foresees, no more by what it was
-/// computed from. What is loaded from a place of that number is then loaded before it is known, and
-/// once more where another was foreseen: the way from node to node is not as long as the sum of all
-/// that is computed at each.
+/// What foreseen() takes at most.
+constexpr std::size_t most_foreseen = tree_width + 1;
+
+/// The number by a jump that the processor foresees, no more by what it was computed from. What is
+/// loaded from a place of that number is then loaded before it is known, and once more where
+/// another was foreseen: the way from node to node is not as long as the sum of all that is
+/// computed at each.
 HWY_INLINE std::size_t foreseen(std::size_t number) {
     const auto here = [](std::size_t same) HWY_ATTR {
 #if HWY_COMPILER_GCC || HWY_COMPILER_CLANG
@@ -73,7 +76,7 @@ HWY_INLINE std::size_t foreseen(std::size_t number) {
 #endif
         return same;
     };
-    static_assert(tree_width == 8);
+    static_assert(most_foreseen == 9);
     switch (number) {
     case 0:
         return here(0);
@@ -89,8 +92,12 @@ HWY_INLINE std::size_t foreseen(std::size_t number) {
         return here(5);
     case 6:
         return here(6);
-    default:
+    case 7:
         return here(7);
+    case 8:
+        return here(8);
+    default:
+        return here(9);
     }
 }
 
