@@ -13,7 +13,10 @@
 #include "vera/accel/float_walks-inl.h"
 #include "vera/accel/float_workspace-inl.h"
 
+#include <algorithm>
+#include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -94,10 +97,80 @@ HWY_INLINE bool visit_leaf(AloneSearch<Tree>& search, const TreeChild& leaf, Sin
     return false;
 }
 
+/// Whether the ray starts near the one that this thread was asked about before: then it mostly goes
+/// the same ways at first, which are foreseen. What else is foreseen wrongly costs more than it
+/// brings.
+HWY_INLINE bool starts_near_last(const SingleRay& ray) {
+    constexpr float near = 0x1p-6F;
+    thread_local std::array<float, 3> last = {};
+    float apart = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        apart = std::max(apart, std::abs(ray.origin[axis] - last[axis]));
+        last[axis] = ray.origin[axis];
+    }
+    return apart < near;
+}
+
+// Where a ray goes on from a node of which it meets some children, as bits; false when nothing is
+// left. With jumps, which the processor follows before it knows, it has the memory of what is next
+// under way. Of most nodes one child is met, which need not wait on the stack.
+
+/// At the first one.
+HWY_INLINE bool go_to_first(
+    const WideNode& node,
+    std::uint32_t met,
+    bool foresees,
+    SingleStack<true>& stack,
+    TreeChild& next) {
+    if (met == 0)
+        return stack.take(0, next);
+    const auto first = static_cast<std::size_t>(std::countr_zero(met));
+    next = node.children[foresees ? foreseen(first) : first];
+    std::uint32_t others = met & (met - 1);
+    stack.end += std::popcount(others);
+    for (TreeChild* top = stack.end; others != 0; others &= others - 1)
+        *--top = node.children[static_cast<std::size_t>(std::countr_zero(others))];
+    return true;
+}
+
+/// At the nearest one; near_at and far_at as in put_met_children().
+template <typename Tree, typename NearAt, typename FarAt>
+HWY_INLINE bool go_to_nearest(
+    const Tree& tree,
+    const WideNode& node,
+    std::uint32_t met,
+    std::size_t octant,
+    bool foresees,
+    const NearAt& near_at,
+    const FarAt& far_at,
+    float limit,
+    SingleStack<false>& stack,
+    TreeChild& next) {
+    // One jump for all that there may be: none, several, or which one.
+    constexpr std::size_t none = tree_width;
+    constexpr std::size_t several = tree_width + 1;
+    const auto first = static_cast<std::size_t>(std::countr_zero(met | 1U << none));
+    std::size_t way = (met & (met - 1)) != 0 ? several : first;
+    if (foresees)
+        way = foreseen(way);
+    if (way == none)
+        return stack.take(limit, next);
+    if (way != several) {
+        next = node.children[way];
+        return true;
+    }
+    const PutChildren put = put_met_children(node, octant, near_at, far_at, stack.end);
+    next = node.children[foresees ? foreseen(put.first) : put.first];
+    stack.end += put.count - 1;
+    fetch(tree, stack.end[-1]);
+    return true;
+}
+
 /// Follows one ray of an octant down from the root; true when it is only asked whether it meets
 /// anything, and it does.
 template <bool any, typename Tree>
-HWY_INLINE bool follow_single(AloneSearch<Tree>& search, std::size_t octant, SingleRay& ray) {
+HWY_INLINE bool
+follow_single(AloneSearch<Tree>& search, std::size_t octant, bool foresees, SingleRay& ray) {
     const Tree& tree = search.tree;
     const Children d;
     const auto all = [&](float number) HWY_ATTR { return hn::Set(d, number); };
@@ -165,26 +238,14 @@ HWY_INLINE bool follow_single(AloneSearch<Tree>& search, std::size_t octant, Sin
             std::uint32_t met = 0;
             for (std::size_t i = 0; i < tree_width; i += hn::Lanes(d))
                 met |= bits_of(d, hn::Le(near_at(i), far_at(i))) << i;
-            // With branches, which the processor follows before it knows, it has the memory of what
-            // is next under way. Of most nodes one child is met, which need not wait on the stack.
-            if (met == 0) {
-                if (!stack.take(ray.limit, next))
-                    return false;
-                continue;
-            }
-            next = node.children[static_cast<std::size_t>(std::countr_zero(met))];
-            if ((met &= met - 1) == 0)
-                continue;
-            if constexpr (any) {
-                stack.end += std::popcount(met);
-                for (TreeChild* top = stack.end; met != 0; met &= met - 1)
-                    *--top = node.children[static_cast<std::size_t>(std::countr_zero(met))];
-            } else {
-                const PutChildren put = put_met_children(node, octant, near_at, far_at, stack.end);
-                next = put.first;
-                stack.end += put.count - 1;
-                fetch(tree, stack.end[-1]);
-            }
+            bool left = false;
+            if constexpr (any)
+                left = go_to_first(node, met, foresees, stack, next);
+            else
+                left = go_to_nearest(
+                    tree, node, met, octant, foresees, near_at, far_at, ray.limit, stack, next);
+            if (!left)
+                return false;
         }
         if (visit_leaf<any>(search, next, ray))
             return true;
@@ -206,7 +267,7 @@ search_nearest_alone_in(const Tree& tree, const IndexRay& given, typename Tree::
     }
     AloneSearch<Tree> search = {{tree}};
     add_numbers(search, ray);
-    follow_single<false>(search, octant, ray);
+    follow_single<false>(search, octant, starts_near_last(ray), ray);
     if (HWY_UNLIKELY(search.space != nullptr))
         hit = decide_doubtful(
             search, search.space->doubtful, given, ray.leaf, ray.place, search.last_doubtful);
@@ -226,7 +287,7 @@ HWY_INLINE bool search_any_alone_in(const Tree& tree, const IndexRay& given) {
         return meets_any_plainly(tree, given);
     AloneSearch<Tree> search = {{tree}};
     add_numbers(search, ray);
-    return follow_single<true>(search, octant, ray);
+    return follow_single<true>(search, octant, starts_near_last(ray), ray);
 }
 
 } // namespace vera::detail::HWY_NAMESPACE

@@ -46,7 +46,6 @@ struct RayGroup {
     GroupRow<float> origin[3];
     GroupRow<float> direction[3];
     GroupRow<float> t_min;
-    GroupRow<float> t_max;
     GroupRow<float> per_t_scale; ///< 1 / t_scale
     GroupRow<float> inverse[3];  ///< of the direction; large but finite where that is 0
     GroupRow<float> largest;     ///< the direction's largest coordinate, without its sign
@@ -105,8 +104,68 @@ inline float rounding_slack(float largest_origin) {
     return 0x1p-20F * (1 + largest_origin);
 }
 
-/// Fills in what follows from the rows of the rays as they were given.
-HWY_INLINE void place_group(const FloatTree& tree, GroupMask lanes, RayGroup& group) {
+/// Rays as they were given, in the lanes of registers: the origin and t_min, the direction and
+/// t_max.
+struct GivenRays {
+    hn::Vec<Rays> origin[4];
+    hn::Vec<Rays> direction[4];
+};
+
+#if HWY_TARGET != HWY_SCALAR
+/// Of every fourth ray the four numbers that begin there, where the first one's do.
+template <typename D>
+HWY_INLINE hn::Vec<D> every_fourth(D d, const float* first) {
+    if constexpr (hn::MaxLanes(D()) <= 4) {
+        return hn::LoadU(d, first);
+    } else {
+        constexpr std::size_t numbers = sizeof(IndexRay) / sizeof(float);
+        const hn::Half<D> half;
+        return hn::Combine(
+            d, every_fourth(half, first + hn::MaxLanes(half) * numbers), every_fourth(half, first));
+    }
+}
+#endif
+
+/// The four numbers that begin at number place of each ray. They stay in registers, as wide loads
+/// would wait for what narrow stores wrote.
+HWY_INLINE void
+load_numbers(Rays d, const IndexRay* rays, std::size_t place, hn::Vec<Rays> (&numbers)[4]) {
+    const float* const first = rays->origin.data() + place;
+#if HWY_TARGET == HWY_SCALAR
+    for (std::size_t i = 0; i < 4; ++i)
+        numbers[i] = hn::Load(d, first + i);
+#else
+    constexpr std::size_t next = sizeof(IndexRay) / sizeof(float);
+    const auto a = every_fourth(d, first);
+    const auto b = every_fourth(d, first + next);
+    const auto c = every_fourth(d, first + 2 * next);
+    const auto e = every_fourth(d, first + 3 * next);
+    const auto ac = hn::InterleaveLower(d, a, c);
+    const auto be = hn::InterleaveLower(d, b, e);
+    const auto upper_ac = hn::InterleaveUpper(d, a, c);
+    const auto upper_be = hn::InterleaveUpper(d, b, e);
+    numbers[0] = hn::InterleaveLower(d, ac, be);
+    numbers[1] = hn::InterleaveUpper(d, ac, be);
+    numbers[2] = hn::InterleaveLower(d, upper_ac, upper_be);
+    numbers[3] = hn::InterleaveUpper(d, upper_ac, upper_be);
+#endif
+}
+
+/// A register full of rays.
+HWY_INLINE GivenRays given_rays(Rays d, const IndexRay* rays) {
+    static_assert(offsetof(IndexRay, t_min) == 3 * sizeof(float));
+    static_assert(offsetof(IndexRay, direction) == 4 * sizeof(float));
+    static_assert(offsetof(IndexRay, t_max) == 7 * sizeof(float));
+    GivenRays given;
+    load_numbers(d, rays, 0, given.origin);
+    load_numbers(d, rays, 4, given.direction);
+    return given;
+}
+
+/// Fills in the rows of the group of these group_size rays, of which those of the lanes are to be
+/// followed.
+HWY_INLINE void
+place_group(const FloatTree& tree, const IndexRay* rays, GroupMask lanes, RayGroup& group) {
     const Rays d;
     const RayInts di;
     const auto first = hn::Set(d, tree.scale.first);
@@ -121,10 +180,11 @@ HWY_INLINE void place_group(const FloatTree& tree, GroupMask lanes, RayGroup& gr
     group.met = 0;
     group.in_doubt = 0;
     for (std::size_t i = 0; i < group_size; i += hn::Lanes(d)) {
+        const GivenRays all_given = given_rays(d, rays + i);
         auto followed = in_group(d, lanes, i);
         auto size = hn::Zero(d);
-        for (const auto& row : group.direction)
-            size = hn::Max(size, hn::Abs(hn::Load(d, row.data() + i)));
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            size = hn::Max(size, hn::Abs(all_given.direction[axis]));
         const auto size_exponent = hn::ShiftRight<23>(hn::BitCast(di, size));
         const auto t_exponent = hn::Add(size_exponent, exponent);
         const auto usual = hn::And(
@@ -140,7 +200,7 @@ HWY_INLINE void place_group(const FloatTree& tree, GroupMask lanes, RayGroup& gr
         auto direction_size = hn::Zero(d);
         auto largest = hn::Zero(d);
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const auto given = hn::Load(d, group.direction[axis].data() + i);
+            const auto given = all_given.direction[axis];
             // -0 becomes 0.
             const auto direction = hn::Add(hn::Mul(given, to_unit), hn::Zero(d));
             followed = hn::And(followed, hn::Eq(hn::Mul(direction, from_unit), given));
@@ -153,7 +213,7 @@ HWY_INLINE void place_group(const FloatTree& tree, GroupMask lanes, RayGroup& gr
                     hn::CopySign(hn::Max(hn::Abs(direction), hn::Set(d, 0x1p-60F)), direction)),
                 d,
                 group.inverse[axis].data() + i);
-            const auto given_origin = hn::Load(d, group.origin[axis].data() + i);
+            const auto given_origin = all_given.origin[axis];
             const auto origin = hn::Mul(hn::Mul(given_origin, first), second);
             followed = hn::And(
                 followed, hn::Eq(hn::Mul(hn::Mul(origin, back_first), back_second), given_origin));
@@ -164,8 +224,8 @@ HWY_INLINE void place_group(const FloatTree& tree, GroupMask lanes, RayGroup& gr
 
         const auto t_scale = power_of_two(t_exponent);
         const auto per_t_scale = power_of_two(hn::Sub(hn::Set(di, 254), t_exponent));
-        const auto given_min = hn::Load(d, group.t_min.data() + i);
-        const auto given_max = hn::Load(d, group.t_max.data() + i);
+        const auto given_min = all_given.origin[3];
+        const auto given_max = all_given.direction[3];
         // -0 becomes 0.
         const auto t_min = hn::Add(hn::Mul(given_min, t_scale), hn::Zero(d));
         const auto t_max = hn::Mul(given_max, t_scale);
@@ -178,7 +238,6 @@ HWY_INLINE void place_group(const FloatTree& tree, GroupMask lanes, RayGroup& gr
                     hn::Or(
                         hn::Eq(hn::Mul(t_max, per_t_scale), given_max), hn::Eq(t_max, infinite)))));
         hn::Store(t_min, d, group.t_min.data() + i);
-        hn::Store(t_max, d, group.t_max.data() + i);
         hn::Store(per_t_scale, d, group.per_t_scale.data() + i);
         hn::Store(hn::IfThenElse(followed, t_max, hn::Set(d, -1)), d, group.limit.data() + i);
         hn::Store(infinite, d, group.near.data() + i);
@@ -221,49 +280,21 @@ transpose(const std::array<const float*, 4>& from, const std::array<float*, 4>& 
 #endif
 }
 
-/// Writes group_size rays row by row.
-HWY_INLINE void fill_rows(const IndexRay* from, RayGroup& group) {
-    static_assert(offsetof(IndexRay, t_min) == 3 * sizeof(float));
-    static_assert(offsetof(IndexRay, direction) == 4 * sizeof(float));
-    static_assert(offsetof(IndexRay, t_max) == 7 * sizeof(float));
-    for (std::size_t lane = 0; lane < group_size; lane += 4) {
-        const IndexRay* const four = from + lane;
-        transpose(
-            {four[0].origin.data(),
-             four[1].origin.data(),
-             four[2].origin.data(),
-             four[3].origin.data()},
-            {&group.origin[0][lane],
-             &group.origin[1][lane],
-             &group.origin[2][lane],
-             &group.t_min[lane]});
-        transpose(
-            {four[0].direction.data(),
-             four[1].direction.data(),
-             four[2].direction.data(),
-             four[3].direction.data()},
-            {&group.direction[0][lane],
-             &group.direction[1][lane],
-             &group.direction[2][lane],
-             &group.t_max[lane]});
-    }
-}
-
-/// Writes up to group_size rays row by row, and places them.
+/// Makes a group of up to group_size rays.
 HWY_INLINE void
 start_group(const FloatTree& tree, std::span<const IndexRay> rays, RayGroup& group) {
     group.rays = rays;
-    if (rays.size() < group_size) {
-        // What is missing is a copy of the last.
-        std::array<IndexRay, group_size> copies;
-        for (std::size_t lane = 0; lane < group_size; ++lane)
-            copies[lane] = rays[std::min(lane, rays.size() - 1)];
-        fill_rows(copies.data(), group);
-    } else {
-        fill_rows(rays.data(), group);
-    }
     // Where numbers lost digits, what is sure in single precision is sure of other elements.
-    place_group(tree, tree.exact ? (GroupMask{1} << rays.size()) - 1 : 0, group);
+    const GroupMask lanes = tree.exact ? (GroupMask{1} << rays.size()) - 1 : 0;
+    if (HWY_LIKELY(rays.size() == group_size)) {
+        place_group(tree, rays.data(), lanes, group);
+        return;
+    }
+    // What is missing is a copy of the last.
+    std::array<IndexRay, group_size> copies;
+    for (std::size_t lane = 0; lane < group_size; ++lane)
+        copies[lane] = rays[std::min(lane, rays.size() - 1)];
+    place_group(tree, copies.data(), lanes, group);
 }
 
 } // namespace vera::detail::HWY_NAMESPACE

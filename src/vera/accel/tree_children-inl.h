@@ -62,12 +62,49 @@ constexpr auto plane_places = [] {
     return places;
 }();
 
+/// What foreseen() takes at most.
+constexpr std::size_t most_foreseen = tree_width + 1;
+
+/// The number by a jump that the processor foresees, no more by what it was computed from. What is
+/// loaded from a place of that number is then loaded before it is known, and once more where
+/// another was foreseen: the way from node to node is not as long as the sum of all that is
+/// computed at each.
+HWY_INLINE std::size_t foreseen(std::size_t number) {
+    const auto here = [](std::size_t same) HWY_ATTR {
+#if HWY_COMPILER_GCC || HWY_COMPILER_CLANG
+        asm("" : "+r"(same)); // or compilers see that it is the number, and do not jump
+#endif
+        return same;
+    };
+    static_assert(most_foreseen == 9);
+    switch (number) {
+    case 0:
+        return here(0);
+    case 1:
+        return here(1);
+    case 2:
+        return here(2);
+    case 3:
+        return here(3);
+    case 4:
+        return here(4);
+    case 5:
+        return here(5);
+    case 6:
+        return here(6);
+    case 7:
+        return here(7);
+    case 8:
+        return here(8);
+    default:
+        return here(9);
+    }
+}
+
 /// Children that were put onto a stack.
 struct PutChildren {
     std::uint32_t count = 0;
-    /// The one on top, where there is any. It is told beside, since what goes on with it is not to
-    /// wait for the stack's memory; it does not say where it is entered.
-    TreeChild first;
+    std::size_t first = 0; ///< the number of the one on top, where there is any
 };
 
 /// Puts the children of the node onto a stack for which near, which is not negative, is not behind
@@ -95,11 +132,9 @@ HWY_INLINE PutChildren put_met_children(
     const __m512i waiting = _mm512_ternarylogic_epi64(
         _mm512_set1_epi64(static_cast<long long>(TreeChild::lower_part)), in_order, upper, 0xca);
     _mm512_storeu_si512(stack, _mm512_maskz_compress_epi64(met, waiting));
-    alignas(64) TreeChild all[tree_width];
-    _mm512_store_si512(all, in_order);
     const std::uint32_t bits = met;
     const std::size_t last = static_cast<std::size_t>(std::bit_width(bits) - 1) % tree_width;
-    return {static_cast<std::uint32_t>(std::popcount(bits)), all[last]};
+    return {static_cast<std::uint32_t>(std::popcount(bits)), node.children[last].in_order(order)};
 #else
     const Children d;
     std::uint32_t met = 0;
@@ -110,6 +145,7 @@ HWY_INLINE PutChildren put_met_children(
         met |= bits_of(d, hn::Le(enters, far_at(i))) << i;
     }
     std::uint32_t size = 0;
+    std::size_t first = 0;
     for (; met != 0; met &= met - 1) {
         const auto i = static_cast<std::size_t>(std::countr_zero(met));
         const TreeChild child = TreeChild::waiting(node.children[i], near[i]);
@@ -117,8 +153,10 @@ HWY_INLINE PutChildren put_met_children(
         for (; place > 0 && stack[place - 1].bits < child.bits; --place)
             stack[place] = stack[place - 1];
         stack[place] = child;
+        if (place + 1 == size)
+            first = i;
     }
-    return {size, size > 0 ? stack[size - 1] : TreeChild{}};
+    return {size, first};
 #endif
 }
 
