@@ -30,7 +30,7 @@ SHADED = ["--style", "shaded", "--deviation", "0.5", "--precision", "0.1", "--co
 THIN = ["--style", "lines", "--precision", "0.1", "--line", "silhouette:width=0.5",
         "--line", "crease:width=0.3"]
 
-COARSE = ["--style", "shaded", "--deviation", "2", "--precision", "0.1", "--color-tolerance", "40"]
+COARSE = ["--style", "shaded", "--deviation", "2", "--precision", "0.1", "--color-tolerance", "42"]
 
 # The figure, its title, the scene, the raster, the drawing's options, and what there is to see.
 FIGURES = [

@@ -34,7 +34,12 @@ std::optional<WordPlace> ItemPlaces::word(
     const auto& [text, triangle_lines] = file(item);
     if (!text)
         return std::nullopt;
-    if (!triangle || *triangle >= triangle_lines.size())
+    if (!triangle || triangle_lines.empty())
+        return item_place(geometry, number, *text);
+    // The meshes of a file are its triangles in their order.
+    for (std::uint32_t before = 0; before < item.index; ++before)
+        *triangle += geometry.meshes[before].triangle_count();
+    if (*triangle >= triangle_lines.size())
         return item_place(geometry, number, *text);
     Item face = item;
     face.line = triangle_lines[*triangle];

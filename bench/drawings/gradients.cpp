@@ -58,9 +58,10 @@ DrawingPoint beside(DrawingPoint point, double way, int eighth) {
 /// What a ray through a point of the picture sees.
 struct Sight {
     FaceId face;
-    std::uint64_t lights = 0; ///< that light it, by number
-    bool is_filtered = false; ///< whether one of them shines through something
-    Color color;              ///< without mirrors and glass
+    std::uint64_t lights = 0;    ///< that light it, by number
+    bool is_filtered = false;    ///< whether one of them shines through something
+    std::vector<Color> switched; ///< what the colour were with one light more or less
+    Color color;                 ///< without mirrors and glass
 
     bool is_like(const Sight& other) const { return face == other.face && lights == other.lights; }
 };
@@ -91,12 +92,20 @@ public:
         const Incidence at = incidence(surface, query.ray.direction);
         const Material& material = material_of(scene_, surface.material);
         LocalTerms terms = unlit(at, material, picture_.ambient);
+        std::vector<std::pair<double, LightTerms>> others; // that are on or off by shadows alone
         for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
             const LightTerms light = unshadowed(at, material, scene_.lights[i]);
             const Color passed = is_black(light) ? Color{} : reaching(surface, hit, i);
             seen.lights |= is_black(passed) ? 0 : std::uint64_t{1} << (i % 64);
             seen.is_filtered = seen.is_filtered || !(is_black(passed) || passed == Color{1, 1, 1});
             terms += passed * light;
+            if (!is_black(light))
+                others.emplace_back(is_black(passed) ? 1 : -1, light);
+        }
+        for (const auto& [sign, light] : others) {
+            LocalTerms with = terms;
+            with += Color{sign, sign, sign} * light;
+            seen.switched.push_back(clamped(sum(with)));
         }
         seen.color = clamped(sum(terms));
         return seen;
@@ -217,6 +226,7 @@ private:
 struct Comparison {
     std::size_t compared = 0;
     std::size_t off = 0;     ///< by more than the tolerance
+    std::size_t shadow = 0;  ///< of them those of the colour that one light more or less makes
     std::size_t far_off = 0; ///< by more than twice that
     std::size_t beyond = 0;  ///< from all that the light is within the deviation
     double most = 0;         ///< of 255
@@ -246,7 +256,12 @@ Comparison compared(const Rays& rays, const Drawing& drawing, std::size_t points
         ++result.compared;
         const Color shown = fills.color(at);
         const double error = difference(shown, seen.color);
-        result.off += error > rounding * tolerance ? 1 : 0;
+        const auto is_shown = [&](Color color) {
+            return difference(shown, color) <= rounding * tolerance;
+        };
+        const bool is_off = !is_shown(seen.color);
+        result.off += is_off ? 1 : 0;
+        result.shadow += is_off && std::ranges::any_of(seen.switched, is_shown) ? 1 : 0;
         result.far_off += error > 2 * tolerance ? 1 : 0;
         result.most = std::max(result.most, 255 * error);
         result.beyond += error - slack > rounding * tolerance ? 1 : 0;
@@ -298,6 +313,7 @@ void measure(const std::string& path, const std::string& control, std::size_t po
     const nlohmann::ordered_json json = {
         {"compared", found.compared},
         {"off", found.off},
+        {"shadow", found.shadow},
         {"far_off", found.far_off},
         {"most", found.most},
         {"beyond", found.beyond},

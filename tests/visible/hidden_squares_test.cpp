@@ -2,11 +2,13 @@
 // Squares of cells hide what all of its cells hide, asked one by one.
 #include "vera/visible/edges.h"
 #include "vera/visible/hidden_squares.h"
+#include "vera/visible/screen_box.h"
 #include "vera/visible/sheets.h"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <random>
 #include <vector>
 
@@ -166,6 +168,73 @@ TEST(HiddenSquares, OfLargeSheetsLeaveOutOnlyWhatIsHidden) {
         for (std::size_t cell = 0; cell < with.blocked.size(); ++cell)
             ASSERT_LE(with.blocked[cell], cells_of_all.blocked[cell]);
     }
+}
+
+/// One point at least of the figure in the box: a corner of either in the other, or two sides that
+/// meet.
+bool do_meet_by_sides(const ScreenBox& box, const std::vector<ScreenPoint>& figure) {
+    const auto at = [](std::int64_t x, std::int64_t y) {
+        return ScreenPoint{static_cast<std::int32_t>(x), static_cast<std::int32_t>(y)};
+    };
+    const std::vector<ScreenPoint> square = {
+        at(box.x.least, box.y.least),
+        at(box.x.most, box.y.least),
+        at(box.x.most, box.y.most),
+        at(box.x.least, box.y.most)};
+    const auto encloses = [](const std::vector<ScreenPoint>& outline, ScreenPoint point) {
+        bool left = true;
+        bool right = true;
+        for (std::size_t i = 0; i < outline.size(); ++i) {
+            const auto side = orientation(outline[i], outline[(i + 1) % outline.size()], point);
+            left = left && side >= 0;
+            right = right && side <= 0;
+        }
+        return left != right; // all on one line: nothing is enclosed
+    };
+    const auto cross_each_other = [](ScreenPoint a, ScreenPoint b, ScreenPoint c, ScreenPoint d) {
+        const auto are_apart = [](ScreenPoint p, ScreenPoint q, ScreenPoint r, ScreenPoint s) {
+            const auto first = orientation(p, q, r);
+            const auto second = orientation(p, q, s);
+            return (first > 0 && second > 0) || (first < 0 && second < 0);
+        };
+        return !are_apart(a, b, c, d) && !are_apart(c, d, a, b)
+            && std::max(a.x, b.x) >= std::min(c.x, d.x) && std::max(c.x, d.x) >= std::min(a.x, b.x)
+            && std::max(a.y, b.y) >= std::min(c.y, d.y) && std::max(c.y, d.y) >= std::min(a.y, b.y);
+    };
+    for (const ScreenPoint corner : figure)
+        if (encloses(square, corner))
+            return true;
+    for (std::size_t i = 0; i < 4; ++i) {
+        if (encloses(figure, square[i]))
+            return true;
+        for (std::size_t k = 0; k < figure.size(); ++k)
+            if (cross_each_other(
+                    square[i], square[(i + 1) % 4], figure[k], figure[(k + 1) % figure.size()]))
+                return true;
+    }
+    return false;
+}
+
+TEST(ScreenBox, MeetsWhatHasAPointOfIt) {
+    std::mt19937 random(16);
+    int meeting = 0;
+    for (int round = 0; round < 20000; ++round) {
+        std::vector<ScreenPoint> figure(2 + random() % 2);
+        for (ScreenPoint& corner : figure) {
+            corner.x = static_cast<std::int32_t>(random() % 9);
+            corner.y = static_cast<std::int32_t>(random() % 9);
+        }
+        ScreenBox box;
+        for (ScreenRange* const range : {&box.x, &box.y}) {
+            range->least = 2 + static_cast<std::int64_t>(random() % 3);
+            range->most = range->least + 1 + static_cast<std::int64_t>(random() % 3);
+        }
+        const bool is = do_meet_by_sides(box, figure);
+        meeting += is ? 1 : 0;
+        ASSERT_EQ(do_meet(box, figure), is) << round;
+    }
+    EXPECT_GT(meeting, 5000);
+    EXPECT_LT(meeting, 18000);
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/accel/brute_force.h"
+#include "vera/accel/wide_bvh.h"
 #include "vera/visible/brute_force.h"
 #include "vera/visible/drawn_faces.h"
 #include "vera/visible/map_check.h"
@@ -247,6 +248,64 @@ TEST(MapCheck, FindsARingBeforeTheBackground) {
     // A 64th of the picture.
     EXPECT_GT(check.far, 5U);
     EXPECT_LT(check.far, 30U);
+}
+
+/// A flat square of 2 * cells * cells triangles, at that height.
+Mesh flat_square(std::uint32_t cells, double z) {
+    Mesh mesh;
+    for (std::uint32_t row = 0; row <= cells; ++row)
+        for (std::uint32_t column = 0; column <= cells; ++column)
+            mesh.positions.push_back({8.0 * column / cells - 4, 8.0 * row / cells - 4, z});
+    for (std::uint32_t row = 0; row < cells; ++row)
+        for (std::uint32_t column = 0; column < cells; ++column) {
+            const std::uint32_t a = row * (cells + 1) + column;
+            const std::uint32_t c = a + cells + 2;
+            mesh.position_indices.insert(mesh.position_indices.end(), {a, a + 1, c, a, c, c - 1});
+        }
+    return mesh;
+}
+
+/// What is told where the lower of two flat squares is drawn, so far below the one that rays meet.
+MapCheck check_of_squares(std::uint32_t cells, double below) {
+    Scene scene;
+    scene.geometry.meshes = {flat_square(cells, 0), flat_square(cells, -below)};
+    scene.geometry.items = {
+        {.kind = ItemKind::mesh, .index = 0}, {.kind = ItemKind::mesh, .index = 1}};
+    number_primitives(scene);
+    Camera camera;
+    camera.projection = Camera::Projection::parallel;
+    camera.direction = {0.3, 0.1, -1};
+    camera.lower_left = {-1, -1, 5};
+    camera.lower_right = {1, -1, 5};
+    camera.upper_left = {-1, 1, 5};
+    VisibleMap map;
+    for (const ScreenPoint point :
+         {ScreenPoint{0, 0}, {screen_size, 0}, {screen_size, screen_size}, {0, screen_size}}) {
+        map.ring_vertices.push_back(static_cast<std::uint32_t>(map.vertices.size()));
+        map.vertices.push_back(RationalPoint{point});
+    }
+    map.rings = {{1, 0, 0, 4}};
+    const std::uint64_t count = 2 * std::uint64_t{cells} * cells;
+    PrimitiveMap drawn = {map, {0, count}};
+    for (const std::uint32_t source : {0U, 1U})
+        for (std::uint64_t i = 1; i < count; ++i)
+            drawn.joined.push_back({source, source * count + i});
+    const auto index = make_wide_bvh(scene);
+    return check_map(drawn, scene, camera, *index, {400, 512, 512, 0});
+}
+
+/// Each such place asked all triangles of the square before.
+TEST(MapCheck, AsksFewTrianglesWhereHugeFlatMeshesAllButCoincide) {
+    for (const double below : {0.0, 1e-13, 1e-9, 1.0}) {
+        const MapCheck few = check_of_squares(2, below); // one by one
+        const MapCheck many = check_of_squares(60, below);
+        EXPECT_EQ(few.far > 0, below == 1) << below;
+        EXPECT_GT(few.near + few.far, 300U) << below;
+        EXPECT_EQ(many.near, few.near) << below;
+        EXPECT_EQ(many.far, few.far) << below;
+        EXPECT_GT(few.asked, 300U);
+        EXPECT_LT(many.asked, 4 * 7200U) << below; // of 400 places: of some, near an edge, all
+    }
 }
 
 TEST(MapCheck, FindsARingThatIsThereTwiceAndACornerThatHasMoved) {

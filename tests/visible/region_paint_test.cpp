@@ -104,6 +104,31 @@ TEST(ScatteredPoints, LieInside) {
     EXPECT_GT(all, 400U);
 }
 
+TEST(NearBorder, EnclosesWhatTheSidesGoRoundAnOddNumberOfTimes) {
+    std::mt19937 random(14);
+    int inside = 0;
+    for (int round = 0; round < 40; ++round) {
+        const std::vector<BorderRing> rings = random_rings(random);
+        const NearBorder border(rings);
+        for (int i = 0; i < 25; ++i) {
+            // Neither in a row with a corner nor on a side.
+            const double x = 0.25 * static_cast<double>(random() % 53) + 0.11;
+            const double y = 0.25 * static_cast<double>(random() % 41) + 0.13;
+            int turns = 0;
+            for (const BorderRing& ring : rings) {
+                FilledOutline outline;
+                outline.rings.emplace_back(ring.begin(), ring.end());
+                turns += testing::turns_about(testing::flattened_rings(outline), {x, y});
+            }
+            EXPECT_EQ(border.encloses({x, y}), turns % 2 != 0) << x << ' ' << y;
+            inside += turns % 2 != 0 ? 1 : 0;
+        }
+    }
+    EXPECT_GT(inside, 100);
+    EXPECT_FALSE(NearBorder({}).encloses({0, 0}));
+    EXPECT_TRUE(NearBorder({{{0, 0}, {0.9, 0}, {0.9, 0.9}}}).encloses({0.5, 0.2}));
+}
+
 struct Off {
     int points = 0;
     int off = 0; ///< by more than the tolerance
@@ -111,12 +136,12 @@ struct Off {
 };
 
 /// How far off the paint of a square is.
-void compare(const ColorField& field, double size, Off& result) {
+void compare(const ColorField& field, double size, Off& result, double step = 0.7) {
     PaintedRegion region;
     region.rings = {{{0, 0}, {size, 0}, {size, size}, {0, size}}};
     const auto fills = painted(region, field, {});
-    for (double y = 0.3; y < size; y += 0.7)
-        for (double x = 0.4; x < size; x += 0.7) {
+    for (double y = 0.3; y < size; y += step)
+        for (double x = 0.4; x < size; x += step) {
             const Color is = field({x, y});
             const Color shown = testing::painted_color(fills, {x, y}).value_or(Color{9, 9, 9});
             const double off = std::max(
@@ -143,6 +168,48 @@ TEST(RegionPaint, FindsSpotsThatAreSmallerThanTheDistanceOfSamples) {
     }
     EXPECT_LT(off.off, off.points / 2000);
     EXPECT_LT(off.most, 8 * tolerance);
+}
+
+/// Between two checked places a paint may be off by little, in a small place: at a stop, or half
+/// way between two of them.
+TEST(RegionPaint, GoesToWhereItIsFarthestOff) {
+    Off off;
+    for (int i = 0; i < 6; ++i) {
+        const double x = 4 + 3 * i;
+        const double y = 20 - 2 * i;
+        const ColorField field = [&](DrawingPoint at) {
+            const double far = (at.x - x) * (at.x - x) + 2 * (at.y - y) * (at.y - y);
+            const double wave = far / (70 + 15 * i + far);
+            return Color{0.2 + 0.7 * wave, 0.9 - 0.6 * wave * wave, 0.3 + 0.004 * at.x};
+        };
+        compare(field, 30, off, 0.31);
+    }
+    EXPECT_LT(
+        off.off, off.points / 2500); // three times as many where only the places are looked at
+    EXPECT_LT(off.most, 1.5 * tolerance);
+}
+
+/// Near borders too colours are as they are, where they change slowly.
+TEST(RegionPaint, IsWithinTheToleranceNearBorders) {
+    PaintedRegion region;
+    region.rings = {{{0, 0}, {30, 0}, {30, 30}, {0, 30}}};
+    const ColorField field = [](DrawingPoint at) {
+        return Color{0.2 + 0.009 * at.x + 0.0002 * at.y * at.y, 0.5, 0.4 + 0.006 * at.y};
+    };
+    const auto fills = painted(region, field, {});
+    int off = 0;
+    for (double x = 0.05; x < 30; x += 0.3)
+        for (const double y : {0.02, 0.11, 0.31, 29.71, 29.93}) {
+            const Color is = field({x, y});
+            const Color shown = testing::painted_color(fills, {x, y}).value_or(Color{9, 9, 9});
+            off +=
+                std::max(
+                    {std::abs(is.r - shown.r), std::abs(is.g - shown.g), std::abs(is.b - shown.b)})
+                    > tolerance
+                ? 1
+                : 0;
+        }
+    EXPECT_EQ(off, 0);
 }
 
 TEST(RegionPaint, SeesBendsAlongRowsAndColumns) {

@@ -108,7 +108,7 @@ std::size_t grow_float_tree(
     // Whole registers are loaded of the last rows.
     const std::size_t numbers = Tree::leaf_rows * boxes.references.size() + 2 * most_in_leaf;
     tree.leaves.reserve(numbers);
-    prefer_large_pages(tree.leaves.data(), numbers * sizeof(float));
+    prefer_large_pages(tree.leaves.data(), numbers * sizeof(float), Written::nothing);
     tree.leaves.resize(numbers);
     const auto fill = [&](const TreeChild& leaf) {
         const std::size_t size = leaf_size(leaf);
@@ -130,7 +130,7 @@ std::size_t grow_float_tree(
     });
     tree.levels = boxes.levels;
     tree.nodes = std::move(boxes.nodes);
-    prefer_large_pages(tree.nodes.data(), tree.nodes.size() * sizeof(WideNode));
+    prefer_large_pages(tree.nodes.data(), tree.nodes.size() * sizeof(WideNode), Written::all);
     return boxes.leaves;
 }
 

@@ -10,7 +10,7 @@
 
 namespace vera {
 
-void prefer_large_pages(const void* first, std::size_t bytes) noexcept {
+void prefer_large_pages(const void* first, std::size_t bytes, Written written) noexcept {
 #ifdef __linux__
     constexpr std::uintptr_t page = std::uintptr_t{1} << 21U;
     const auto address = reinterpret_cast<std::uintptr_t>(first);
@@ -20,8 +20,8 @@ void prefer_large_pages(const void* first, std::size_t bytes) noexcept {
     const std::size_t whole = (bytes - before) / page * page;
     void* const place = static_cast<char*>(const_cast<void*>(first)) + before;
     const int error_before = errno; // where it is not granted, nobody need know
-    if (madvise(place, whole, MADV_HUGEPAGE) == 0) {
-        // What was written already is moved at once where the system is new enough for that.
+    if (madvise(place, whole, MADV_HUGEPAGE) == 0 && written == Written::all) {
+        // Moved at once where the system is new enough for that.
         constexpr int collapse = 25; // MADV_COLLAPSE, of Linux 6.1
         (void)madvise(place, whole, collapse);
     }
@@ -29,6 +29,7 @@ void prefer_large_pages(const void* first, std::size_t bytes) noexcept {
 #else
     (void)first;
     (void)bytes;
+    (void)written;
 #endif
 }
 

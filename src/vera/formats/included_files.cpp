@@ -2,6 +2,7 @@
 #include "vera/formats/included_files.h"
 
 #include "vera/formats/mesh_file.h"
+#include "vera/formats/obj_parts.h"
 #include "vera/formats/similar_file.h"
 #include "vera/formats/word_reader.h"
 
@@ -94,11 +95,17 @@ IncludedFiles::mesh_path(std::string_view name, const WordPlace& place) {
     return path;
 }
 
-std::optional<Mesh> IncludedFiles::mesh(const std::filesystem::path& path, const WordPlace& place) {
+std::optional<Scene> IncludedFiles::mesh(
+    const std::filesystem::path& path, MeshMaterials materials, const WordPlace& place) {
     std::vector<Diagnostic> warnings;
-    std::optional<Mesh> mesh;
+    Scene scene;
     try {
-        mesh = read_mesh(path, warnings);
+        if (materials == MeshMaterials::of_file && extension_of(path) == ".obj") {
+            scene = read_obj_parts(SourceText(path), warnings);
+        } else {
+            scene.geometry.meshes.push_back(read_mesh(path, warnings));
+            scene.geometry.items.push_back({.kind = ItemKind::mesh});
+        }
     } catch (const InputError& failure) {
         complaints_.add(failure.diagnostics());
         return std::nullopt;
@@ -107,7 +114,7 @@ std::optional<Mesh> IncludedFiles::mesh(const std::filesystem::path& path, const
         return std::nullopt;
     }
     complaints_.add(warnings);
-    return mesh;
+    return scene;
 }
 
 } // namespace vera

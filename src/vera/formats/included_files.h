@@ -3,7 +3,7 @@
 
 #include "vera/formats/complaints.h"
 #include "vera/formats/source_text.h"
-#include "vera/scene/primitives.h"
+#include "vera/scene/scene.h"
 
 #include <cstddef>
 #include <filesystem>
@@ -27,8 +27,13 @@ public:
     /// MESH: the path of a mesh file that exists; nothing, and a complaint, when there is none.
     std::optional<std::filesystem::path> mesh_path(std::string_view name, const WordPlace& place);
 
-    /// The mesh in the file; nothing, and complaints, when it cannot be read.
-    std::optional<Mesh> mesh(const std::filesystem::path& path, const WordPlace& place);
+    /// Whether the materials that a mesh file names are taken or those of the scene hold.
+    enum class MeshMaterials { of_file, of_scene };
+
+    /// The mesh in the file, as a scene of one mesh or, of a file that names materials, one for
+    /// each stretch of one of them; nothing, and complaints, when it cannot be read.
+    std::optional<Scene>
+    mesh(const std::filesystem::path& path, MeshMaterials materials, const WordPlace& place);
 
 private:
     std::optional<std::filesystem::path> existing(std::string_view name, const WordPlace& place);

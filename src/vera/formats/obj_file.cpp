@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/formats/mesh_builder.h"
 #include "vera/formats/mesh_file.h"
+#include "vera/formats/obj_parts.h"
 #include "vera/formats/text_cursor.h"
 
 #include <algorithm>
 #include <array>
+#include <unordered_map>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -12,11 +15,11 @@ namespace vera {
 
 namespace {
 
-constexpr std::array<std::string_view, 30> passed_over = {
-    "vt",     "vp",         "g",      "o",   "s",         "usemtl", "mtllib",   "usemap",
-    "maplib", "p",          "l",      "mg",  "bevel",     "lod",    "d_interp", "c_interp",
-    "call",   "shadow_obj", "cstype", "deg", "trace_obj", "bmat",   "step",     "parm",
-    "trim",   "hole",       "scrv",   "sp",  "end",       "con"};
+constexpr std::array<std::string_view, 28> passed_over = {
+    "vt",   "vp",         "g",      "o",     "s",         "usemap",   "maplib",
+    "p",    "l",          "mg",     "bevel", "lod",       "d_interp", "c_interp",
+    "call", "shadow_obj", "cstype", "deg",   "trace_obj", "bmat",     "step",
+    "parm", "trim",       "hole",   "scrv",  "sp",        "end",      "con"};
 
 constexpr std::array<std::string_view, 3> free_form = {"curv", "curv2", "surf"};
 
@@ -33,11 +36,13 @@ public:
         , builder_(report_)
         , spent_(source) {}
 
-    Mesh read(std::vector<Diagnostic>& warnings) {
+    Mesh read(std::vector<Diagnostic>& warnings, ObjMaterials& materials) {
         reserve();
         while (!at_end())
             read_line();
         warn();
+        end_run();
+        materials = std::move(materials_);
         return builder_.finish(warnings);
     }
 
@@ -109,12 +114,49 @@ private:
             read_face(start);
         } else if (keyword == "vn") {
             read_point(builder_.mesh().normals, "the normal", start);
+        } else if (keyword == "usemtl") {
+            begin_run(start);
+        } else if (keyword == "mtllib") {
+            if (const std::string_view names = cursor_.name_of_line(); !names.empty())
+                materials_.libraries.push_back(names);
         } else if (!keyword.empty()) {
             if (is_one_of(free_form, keyword))
                 free_form_.add(start);
             else if (!is_one_of(passed_over, keyword))
                 unknown_.add(start);
         }
+    }
+
+    /// Faces from here on have the material of that name.
+    void begin_run(std::size_t start) {
+        const std::string_view name = cursor_.name_of_line();
+        if (name.empty() || materials_.any_left_out)
+            return;
+        end_run();
+        run_ = {triangle_count(), ObjMaterials::none, start};
+        run_name_ = name;
+    }
+
+    /// A run without triangles is none, and two that follow each other with one material are one.
+    void end_run() {
+        std::vector<ObjMaterials::Run>& runs = materials_.runs;
+        if (run_.first_triangle == triangle_count() || run_name_.empty()
+            || (!runs.empty() && runs.back().name != ObjMaterials::none
+                && materials_.names[runs.back().name] == run_name_))
+            return;
+        if (runs.empty() && run_.first_triangle > 0)
+            runs.push_back({}); // before the first usemtl
+        const auto [found, is_new] =
+            numbers_.try_emplace(run_name_, static_cast<std::uint32_t>(numbers_.size()));
+        if (is_new)
+            materials_.names.push_back(run_name_);
+        run_.name = found->second;
+        runs.push_back(run_);
+        materials_.any_left_out = runs.size() > most_material_runs;
+    }
+
+    std::uint32_t triangle_count() {
+        return static_cast<std::uint32_t>(builder_.mesh().triangle_count());
     }
 
     /// What follows a vertex's coordinates on the line, a weight or a colour, is passed over.
@@ -245,6 +287,10 @@ private:
     MeshBuilder builder_;
     SpentText spent_;
     std::vector<MeshCorner> corners_;
+    ObjMaterials materials_;
+    ObjMaterials::Run run_; ///< that which goes on
+    std::string_view run_name_;
+    std::unordered_map<std::string_view, std::uint32_t> numbers_; ///< of names
     Tally free_form_;
     Tally unknown_;
 };
@@ -252,7 +298,13 @@ private:
 } // namespace
 
 Mesh read_obj(const SourceText& source, std::vector<Diagnostic>& warnings) {
-    return ObjReader(source).read(warnings);
+    ObjMaterials left_out;
+    return read_obj(source, warnings, left_out);
+}
+
+Mesh read_obj(
+    const SourceText& source, std::vector<Diagnostic>& warnings, ObjMaterials& materials) {
+    return ObjReader(source).read(warnings, materials);
 }
 
 std::vector<std::uint32_t> obj_triangle_lines(const SourceText& source) {

@@ -3,6 +3,7 @@
 
 #include "vera/formats/mesh_file.h"
 #include "vera/formats/nff.h"
+#include "vera/formats/obj_parts.h"
 #include "vera/formats/source_text.h"
 #include "vera/formats/vera_scene.h"
 
@@ -22,14 +23,6 @@ constexpr std::array<std::pair<std::string_view, SceneFormat>, 5> formats = {{
     {"stl", SceneFormat::stl},
 }};
 
-Mesh read_mesh_text(const SourceText& text, SceneFormat format, std::vector<Diagnostic>& warnings) {
-    if (format == SceneFormat::obj)
-        return read_obj(text, warnings);
-    if (format == SceneFormat::ply)
-        return read_ply(text, warnings);
-    return read_stl(text, warnings);
-}
-
 SceneFile mesh_scene(const SourceText& text, SceneFormat format) {
     SceneFile file;
     file.scene.files.push_back(text.name());
@@ -37,8 +30,15 @@ SceneFile mesh_scene(const SourceText& text, SceneFormat format) {
     file.scene.defaults.ambient = {0.25, 0.25, 0.25};
     file.scene.defaults.firmament = Firmament{
         .sky = {0.62, 0.72, 0.86}, .horizon = {0.93, 0.95, 0.97}, .earth = {0.86, 0.86, 0.85}};
+    if (format == SceneFormat::obj) {
+        Scene parts = read_obj_parts(text, file.warnings);
+        file.scene.geometry = std::move(parts.geometry);
+        file.scene.materials = std::move(parts.materials);
+        return file;
+    }
     Geometry& geometry = file.scene.geometry;
-    geometry.meshes.push_back(read_mesh_text(text, format, file.warnings));
+    geometry.meshes.push_back(
+        format == SceneFormat::ply ? read_ply(text, file.warnings) : read_stl(text, file.warnings));
     geometry.items.push_back({.kind = ItemKind::mesh, .line = 1});
     return file;
 }

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "vera/base/large_pages.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <new>
 #include <vector>
 
 namespace vera {
-
-/// Asks the machine for large pages where the memory is large enough to be worth it. Nothing else
-/// changes.
-void prefer_large_pages(void* memory, std::size_t size);
 
 /// Makes room for more elements: exactly, unless that would mean to move everything again and
 /// again. Most of the time in which short numbers are read is the machine's, handing out pages as
@@ -26,7 +24,10 @@ void reserve_room(std::vector<Element>& elements, std::size_t more) {
     } catch (const std::bad_alloc&) {
         return;
     }
-    prefer_large_pages(elements.data(), elements.capacity() * sizeof(Element));
+    // The last large page may stay empty but for a few bytes: at most an eighth of the whole.
+    constexpr std::size_t worth_it = 16'000'000;
+    if (const std::size_t bytes = elements.capacity() * sizeof(Element); bytes >= worth_it)
+        prefer_large_pages(elements.data(), bytes, Written::nothing);
 }
 
 } // namespace vera

@@ -229,6 +229,11 @@ std::string crossing_problem(const PolygonForm& form, std::size_t count) {
         (b + 1) % count + 1);
 }
 
+bool is_same(const Material& a, const Material& b) {
+    return a.name == b.name && a.drf == b.drf && a.arf == b.arf && a.sdi == b.sdi && a.san == b.san
+        && a.rab == b.rab && a.tab == b.tab && a.spc == b.spc && a.ref == b.ref;
+}
+
 } // namespace
 
 void SceneBuilder::add_quadrangle(const std::array<Vec3, 4>& corners, const WordPlace& place) {
@@ -316,23 +321,21 @@ Geometry& SceneBuilder::new_unnamed_subscene(SubsceneId& id) {
     return subscenes_[number];
 }
 
-SubsceneId SceneBuilder::add_mesh_subscene(std::string name, Mesh mesh, const WordPlace& place) {
-    SubsceneId id = {};
-    Geometry& geometry = new_unnamed_subscene(id);
-    geometry.name = std::move(name);
-    geometry.meshes.push_back(std::move(mesh));
-    geometry.items.push_back(
-        {.kind = ItemKind::mesh,
-         .file = file_,
-         .line = static_cast<std::uint32_t>(std::min<std::uint64_t>(place.line, 0xffffffff))});
-    return id;
+const Material& SceneBuilder::standard_material(Material material, const WordPlace& place) {
+    const std::string stem = material.name;
+    for (std::size_t i = 2;; ++i) {
+        const auto [known, is_new] =
+            standard_materials_.try_emplace(material.name, material, place);
+        if (is_new || is_same(known->second.first, material))
+            return known->second.first;
+        material.name = fmt::format("{}-{}", stem, i);
+    }
 }
 
 SubsceneId SceneBuilder::add_made_subscene(std::string name, Scene made, const WordPlace& place) {
     std::vector<MaterialId> materials;
     for (Material& material : made.materials) {
-        const Material& standard =
-            standard_materials_.emplace_back(std::move(material), place).first;
+        const Material& standard = standard_material(std::move(material), place);
         materials.push_back(MaterialId{material_names_.used(standard.name, place)});
     }
     std::vector<SubsceneId> ids(made.subscenes.size() + 1);
@@ -356,12 +359,14 @@ SubsceneId SceneBuilder::add_made_subscene(std::string name, Scene made, const W
 }
 
 void SceneBuilder::define_standard_materials() {
-    for (const auto& [material, place] : standard_materials_)
+    for (const auto& [name, standard] : standard_materials_) {
+        const auto& [material, place] = standard;
         if (material_names_.defined_by_default(material.name, place)) {
             const std::uint32_t id = material_names_.used(material.name, place);
             scene_.materials.resize(std::max<std::size_t>(scene_.materials.size(), id + 1));
             scene_.materials[id] = material;
         }
+    }
 }
 
 } // namespace vera

@@ -12,8 +12,11 @@
 #include <array>
 #include <cstddef>
 #include <deque>
+#include <map>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace vera {
@@ -63,11 +66,12 @@ public:
         const WordPlace& place);
     void add_call(SubsceneId subscene, const Placement& placement, const WordPlace& place);
 
-    /// A subscene of one mesh, of which the text knows no name.
-    SubsceneId add_mesh_subscene(std::string name, Mesh mesh, const WordPlace& place);
+    /// Whether what is added now has a material, and not its caller's.
+    bool has_material() const { return current_->material != inherited_material; }
 
-    /// A subscene of what a generator made, of which the text knows no name. Its materials are
-    /// those of the text that have their names; where there are none, the generator's own.
+    /// A subscene of what a generator made or a file holds, of which the text knows no name. Its
+    /// materials are those of the text that have their names; where there are none, its own. Where
+    /// another one brought a different material of that name, this one gets a number behind it.
     SubsceneId add_made_subscene(std::string name, Scene made, const WordPlace& place);
 
     /// The scene; if the complaints hold an error after the last checks, one without use.
@@ -97,6 +101,7 @@ private:
         const WordPlace& place);
     void add_split_quadrangle(const std::array<Vec3, 4>& corners, const WordPlace& place);
     Geometry& new_unnamed_subscene(SubsceneId& id);
+    const Material& standard_material(Material material, const WordPlace& place);
     void define_standard_materials();
     void warn_no_area(const WordPlace& place, std::string_view what);
     void check_inner_point(const Section& section);
@@ -114,8 +119,8 @@ private:
     NameTable material_names_{"material"};
     NameTable subscene_names_{"subscene"};
     Material discarded_material_;
-    /// Of generators; material_names_ points at their names.
-    std::deque<std::pair<Material, WordPlace>> standard_materials_;
+    /// Of generators and files, by name; material_names_ points at their names.
+    std::map<std::string, std::pair<Material, WordPlace>> standard_materials_;
     std::optional<WordPlace> camera_place_;
     Section main_ = {.geometry = &scene_.geometry};
     Section subscene_ = {.geometry = &discarded_};

@@ -92,6 +92,16 @@ public:
                                : static_cast<std::size_t>(static_cast<const char*>(newline) - at_)};
     }
 
+    /// Likewise, and without blanks before and after it: a name that may have blanks within.
+    std::string_view name_of_line() const {
+        std::string_view name = rest_of_line();
+        while (!name.empty() && is_blank(name.back()))
+            name.remove_suffix(1);
+        while (!name.empty() && is_blank(name.front()))
+            name.remove_prefix(1);
+        return name;
+    }
+
     /// Goes behind the end of this line, whatever it ends in.
     void skip_comment() {
         const void* const found = std::memchr(at_, '\n', static_cast<std::size_t>(end_ - at_));

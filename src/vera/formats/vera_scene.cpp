@@ -304,18 +304,20 @@ private:
         const auto path = files_.mesh_path(*name, name_place);
         if (!path)
             return;
-        if (!placement->moves) {
-            if (auto mesh = files_.mesh(*path, name_place))
-                builder_.add(std::move(*mesh), place);
-            return;
-        }
-        // Placed meshes are subscenes of their own, so that each file is in memory once.
-        auto known = mesh_subscenes_.find(*path);
+        const auto materials = builder_.has_material() ? IncludedFiles::MeshMaterials::of_scene
+                                                       : IncludedFiles::MeshMaterials::of_file;
+        // Placed meshes are subscenes of their own, so that each file is in memory once, and so are
+        // those of several parts.
+        const auto key = std::pair(*path, materials);
+        auto known = mesh_subscenes_.find(key);
         if (known == mesh_subscenes_.end()) {
+            auto mesh = files_.mesh(*path, materials, name_place);
+            if (mesh && !placement->moves && mesh->materials.empty())
+                return builder_.add(std::move(mesh->geometry.meshes.front()), place);
             std::optional<SubsceneId> id;
-            if (auto mesh = files_.mesh(*path, name_place))
-                id = builder_.add_mesh_subscene(path->string(), std::move(*mesh), place);
-            known = mesh_subscenes_.emplace(*path, id).first;
+            if (mesh)
+                id = builder_.add_made_subscene(path->string(), std::move(*mesh), place);
+            known = mesh_subscenes_.insert_or_assign(key, id).first;
         }
         if (known->second)
             builder_.add_call(*known->second, *placement, place);
@@ -356,7 +358,10 @@ private:
     IncludedFiles files_;
     std::vector<std::unique_ptr<WordReader>> texts_; ///< each included by the one before it
     std::size_t inclusions_ = 0;
-    std::map<std::filesystem::path, std::optional<SubsceneId>> mesh_subscenes_;
+    std::map<
+        std::pair<std::filesystem::path, IncludedFiles::MeshMaterials>,
+        std::optional<SubsceneId>>
+        mesh_subscenes_;
     std::map<std::string, std::optional<SubsceneId>> made_; ///< by MadePart::key
     std::vector<std::string_view> making_words_;            ///< that optional_words_ may show
     std::string_view complete_; ///< the keyword of the statement read last, if it was right

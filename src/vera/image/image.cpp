@@ -32,7 +32,7 @@ template <typename Sample>
 std::vector<Sample> black_samples(std::size_t count) {
     std::vector<Sample> samples;
     samples.reserve(count);
-    prefer_large_pages(samples.data(), count * sizeof(Sample));
+    prefer_large_pages(samples.data(), count * sizeof(Sample), Written::nothing);
     samples.resize(count);
     return samples;
 }

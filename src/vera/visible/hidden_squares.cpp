@@ -1,28 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/hidden_squares.h"
 
+#include "vera/visible/screen_box.h"
+
 #include <algorithm>
 #include <limits>
 #include <span>
 
 namespace vera {
-
-namespace {
-
-/// From the least to the most.
-struct Range {
-    std::int64_t least = std::numeric_limits<std::int64_t>::max();
-    std::int64_t most = std::numeric_limits<std::int64_t>::min();
-
-    void include(std::int64_t value) {
-        least = std::min(least, value);
-        most = std::max(most, value);
-    }
-
-    bool meets(const Range& other) const { return least <= other.most && other.least <= most; }
-};
-
-} // namespace
 
 HiddenSquares::HiddenSquares(const Cells& cells)
     : shift_(cells.shift) {
@@ -54,44 +39,24 @@ HiddenSquares::HiddenSquares(const Cells& cells)
 }
 
 bool HiddenSquares::is_long(const ScreenPoint* corners, std::size_t count) const {
-    Range x;
-    Range y;
+    ScreenBox around;
     for (const ScreenPoint corner : std::span(corners, count)) {
-        x.include(corner.x);
-        y.include(corner.y);
+        around.x.include(corner.x);
+        around.y.include(corner.y);
     }
-    return std::max(x.most - x.least, y.most - y.least) >= std::int64_t{2 * smallest} << shift_;
+    return std::max(around.x.most - around.x.least, around.y.most - around.y.least)
+        >= std::int64_t{2 * smallest} << shift_;
 }
 
-/// By the directions that could part them: along the axes, and across each side of the figure.
 bool HiddenSquares::may_touch(const Square& square, const Figure& figure) const {
     constexpr std::int64_t beside = 2; // steps, in which for_each_cell_of() may visit a cell
     const std::int64_t width = std::int64_t{smallest}
         << (square.level + static_cast<std::size_t>(shift_));
-    const Range columns = {square.column * width - beside, (square.column + 1) * width + beside};
-    const Range rows = {square.row * width - beside, (square.row + 1) * width + beside};
-    Range x;
-    Range y;
-    for (const ScreenPoint corner : std::span(figure.corners, figure.count)) {
-        x.include(corner.x);
-        y.include(corner.y);
-    }
-    if (!x.meets(columns) || !y.meets(rows))
-        return false;
-    for (std::size_t i = 0; i < figure.count; ++i) {
-        const ScreenPoint a = figure.corners[i];
-        const ScreenStep side = step(a, figure.corners[(i + 1) % figure.count]);
-        Range figures;
-        for (const ScreenPoint corner : std::span(figure.corners, figure.count))
-            figures.include(cross(side, step(a, corner)));
-        Range squares;
-        for (const std::int64_t column : {columns.least, columns.most})
-            for (const std::int64_t row : {rows.least, rows.most})
-                squares.include(cross(side, {column - a.x, row - a.y}));
-        if (!figures.meets(squares))
-            return false;
-    }
-    return true;
+    const auto range = [&](std::int32_t number) {
+        return ScreenRange{number * width - beside, (number + 1) * width + beside};
+    };
+    return do_meet(
+        {range(square.column), range(square.row)}, std::span(figure.corners, figure.count));
 }
 
 } // namespace vera

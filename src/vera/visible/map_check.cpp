@@ -4,6 +4,7 @@
 #include "vera/accel/primitive_hit.h"
 #include "vera/base/long_loop.h"
 #include "vera/base/random.h"
+#include "vera/scene/crossings.h"
 #include "vera/scene/surface.h"
 #include "vera/visible/map_locator.h"
 #include "vera/visible/projection.h"
@@ -11,6 +12,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <mutex>
 
@@ -59,14 +62,57 @@ bool is_curved(const Scene& scene, std::uint64_t primitive) {
     return kind == ItemKind::sphere || kind == ItemKind::rotational_shape;
 }
 
-/// Where the ray first meets what the map shows: any of the source's primitives.
-Hit hit_of_source(const Comparison& all, const Ray& ray, std::uint32_t source) {
+bool is_of_source(const Comparison& all, std::uint32_t source, std::uint64_t primitive) {
+    const auto& joined = all.drawn.joined;
+    return all.drawn.primitives[source] == primitive
+        || std::binary_search(joined.begin(), joined.end(), JoinedPrimitive{source, primitive});
+}
+
+/// Where the ray meets one of the source's primitives soon behind what it meets first; not found
+/// where it takes long to come there. What is drawn in place of that lies closely behind it.
+Hit hit_soon_behind(
+    const Comparison& all,
+    const Ray& ray,
+    std::uint32_t source,
+    const Hit& traced,
+    QueryCounts& counts) {
+    constexpr int most_steps = 8;
+    std::array<QueryRay, 1> query = {QueryRay{ray, traced.face}};
+    query[0].ray.t_min = std::max(ray.t_min, traced.t - coincidence_tolerance(ray, traced.t));
+    for (int i = 0; i < most_steps; ++i) {
+        std::array<Hit, 1> next;
+        all.index.nearest_hits(query, next, counts);
+        if (!next[0].found() || is_of_source(all, source, next[0].face.primitive))
+            return next[0];
+        query[0].start = next[0].face;
+        query[0].ray.t_min = next[0].t;
+    }
+    return {};
+}
+
+/// Where the ray first meets what the map shows: any of the source's primitives. A plane face may
+/// have a million, so that they are asked one by one only where there are few or nothing else
+/// helps.
+Hit hit_of_source(
+    const Comparison& all,
+    const Ray& ray,
+    std::uint32_t source,
+    const Hit& traced,
+    QueryCounts& counts,
+    std::uint64_t& asked) {
     if (source == no_source)
         return {};
-    Hit nearest = primitive_hit(all.scene, ray, all.drawn.primitives[source]);
     const auto& joined = all.drawn.joined;
     auto other = std::lower_bound(joined.begin(), joined.end(), JoinedPrimitive{source, 0});
-    for (; other != joined.end() && other->source == source; ++other)
+    const auto end = std::upper_bound(
+        other, joined.end(), JoinedPrimitive{source, std::numeric_limits<std::uint64_t>::max()});
+    constexpr std::ptrdiff_t few = 16;
+    if (traced.found() && end - other > few)
+        if (const Hit hit = hit_soon_behind(all, ray, source, traced, counts); hit.found())
+            return hit;
+    Hit nearest = primitive_hit(all.scene, ray, all.drawn.primitives[source]);
+    asked += 1 + static_cast<std::uint64_t>(end - other);
+    for (; other != end; ++other)
         if (const Hit hit = primitive_hit(all.scene, ray, other->primitive); hit.t < nearest.t)
             nearest = hit;
     return nearest;
@@ -89,7 +135,9 @@ bool is_explained(
     const MapDifference& difference,
     std::uint32_t source,
     const Ray& ray,
-    const Hit& traced) {
+    const Hit& traced,
+    QueryCounts& counts,
+    std::uint64_t& asked) {
     const MapCheckSettings& settings = all.settings;
     const bool has_facets =
         is_curved(all.scene, difference.drawn) || is_curved(all.scene, difference.traced);
@@ -104,7 +152,8 @@ bool is_explained(
         return true;
     if (!difference.is_sound)
         return false;
-    const double apart = gap(all.scene, ray, traced, hit_of_source(all, ray, source));
+    const double apart =
+        gap(all.scene, ray, traced, hit_of_source(all, ray, source, traced, counts, asked));
     if (!std::isfinite(apart))
         return false;
     const double pixel =
@@ -138,7 +187,7 @@ void compare(const Comparison& all, std::uint64_t number, QueryCounts& counts, M
         shown.is_sound};
     if (shown.is_sound && difference.drawn == difference.traced)
         return;
-    if (is_explained(all, difference, shown.source, ray[0].ray, traced[0])) {
+    if (is_explained(all, difference, shown.source, ray[0].ray, traced[0], counts, result.asked)) {
         ++result.near;
         return;
     }
@@ -188,6 +237,7 @@ MapCheck check_map(
         result.points += of_part.points;
         result.near += of_part.near;
         result.far += of_part.far;
+        result.asked += of_part.asked;
         if (!result.first_far)
             result.first_far = of_part.first_far;
     }

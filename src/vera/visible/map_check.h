@@ -49,8 +49,9 @@ struct MapDifference {
 
 struct MapCheck {
     std::size_t points = 0;
-    std::size_t near = 0; ///< differences that the grid and the facets explain
-    std::size_t far = 0;  ///< others
+    std::size_t near = 0;    ///< differences that the grid and the facets explain
+    std::size_t far = 0;     ///< others
+    std::uint64_t asked = 0; ///< primitives of what is drawn, one by one, where it differs
     std::optional<MapDifference> first_far;
 };
 

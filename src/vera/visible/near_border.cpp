@@ -28,8 +28,8 @@ double squared_distance(DrawingPoint point, DrawingPoint a, DrawingPoint b) {
 
 NearBorder::NearBorder(const std::vector<BorderRing>& rings)
     : extent_(extent_of(rings)) {
-    if (!(extent_.length() > 2 * reach))
-        return;
+    if (!(extent_.length() >= 0))
+        return; // there are no sides
     sides_.resize(static_cast<std::size_t>(extent_.most.y - extent_.least.y) + 1);
     for (const BorderRing& ring : rings)
         for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -42,9 +42,23 @@ NearBorder::NearBorder(const std::vector<BorderRing>& rings)
 }
 
 bool NearBorder::includes(DrawingPoint point) const {
-    return sides_.empty() || std::ranges::any_of(sides_[row_of(point.y)], [&](const Side& side) {
-               return squared_distance(point, side.first, side.second) < reach * reach;
-           });
+    if (!(extent_.length() > 2 * reach))
+        return true;
+    return std::ranges::any_of(sides_[row_of(point.y)], [&](const Side& side) {
+        return squared_distance(point, side.first, side.second) < reach * reach;
+    });
+}
+
+bool NearBorder::encloses(DrawingPoint point) const {
+    if (sides_.empty())
+        return false;
+    const auto is_crossed = [&](const Side& side) {
+        const auto [a, b] = side;
+        if ((a.y <= point.y) == (b.y <= point.y))
+            return false;
+        return a.x + (point.y - a.y) / (b.y - a.y) * (b.x - a.x) < point.x;
+    };
+    return std::ranges::count_if(sides_[row_of(point.y)], is_crossed) % 2 == 1;
 }
 
 std::size_t NearBorder::row_of(double y) const {

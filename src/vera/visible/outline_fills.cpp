@@ -94,8 +94,7 @@ private:
     bool is_shaded() const { return sources_.style == DrawingStyle::shaded; }
 
     PaintTolerance tolerance() const {
-        constexpr double part_amid =
-            0.03; // away from borders light is that steep at its jumps alone
+        constexpr double part_amid = 0.003; // next to nothing: only jumps of a light notice
         return {sources_.color_tolerance, part_amid * sources_.deviation, sources_.deviation};
     }
 

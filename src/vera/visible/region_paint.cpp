@@ -149,7 +149,7 @@ private:
         const double spacing = std::max(closest, 0.35 * fine);
         for (std::uint64_t round = 0; fits(best); ++round) {
             const std::vector<ColorSample> off =
-                where_off(best, places_to_check(region, best, spacing, round));
+                where_off(best, region, spacing, places_to_check(region, best, spacing, round));
             if (off.empty())
                 break;
             samples.insert(samples.end(), off.begin(), off.end());
@@ -170,8 +170,13 @@ private:
     }
 
     ColorSample sample_at(DrawingPoint point) const {
-        const bool is_near = near_border_.includes(point);
-        return color_sample(point, field_, is_near ? tolerance_.at_border : tolerance_.within);
+        // Only where colours change fast is there a silhouette that asks for it.
+        constexpr double fast = 3.0 / 255;
+        if (near_border_.includes(point))
+            if (ColorSample sample = color_sample(point, field_, tolerance_.at_border);
+                sample.slack > fast)
+                return sample;
+        return color_sample(point, field_, tolerance_.within);
     }
 
     /// Points so far apart or, where the paint is steep, a quarter of that: what lies between two
@@ -193,14 +198,28 @@ private:
         return places;
     }
 
-    /// Samples at some of the points where the paint does not fit; at none only if it fits at all.
-    std::vector<ColorSample>
-    where_off(const FittedPaint& paint, const std::vector<DrawingPoint>& points) const {
+    /// Samples at some of the places where the paint does not fit, of the points and of the worst
+    /// ones nearby, which are searched for where it is not far from that; at none only if it fits
+    /// everywhere.
+    std::vector<ColorSample> where_off(
+        const FittedPaint& paint,
+        const PaintedRegion& region,
+        double spacing,
+        const std::vector<DrawingPoint>& points) const {
+        constexpr double much = 0.7; // of the tolerance
         // The slack of a sample, which takes three times as long, matters at few.
         std::vector<DrawingPoint> doubtful;
-        for (const DrawingPoint point : points)
-            if (error_of(paint, {point, field_(point)}) > tolerance_of_samples())
-                doubtful.push_back(point);
+        std::optional<NearBorder> border;
+        for (const DrawingPoint point : points) {
+            Place worst = {point, error_of(paint, {point, field_(point)})};
+            if (worst.error > much * tolerance_.color && worst.error <= tolerance_of_samples()) {
+                if (!border)
+                    border.emplace(region.rings);
+                worst = worst_nearby(paint, *border, worst, spacing);
+            }
+            if (worst.error > tolerance_of_samples())
+                doubtful.push_back(worst.point);
+        }
         // Where many are off, some of them tell the next fit as much.
         const std::size_t step = doubtful.size() / enough_off + 1;
         std::vector<ColorSample> off;
@@ -211,6 +230,41 @@ private:
                     off.push_back(sample);
             }
         return off;
+    }
+
+    /// A point, and how far off the paint is there, slack or not.
+    struct Place {
+        DrawingPoint point;
+        double error = 0;
+    };
+
+    /// Goes to where the paint is farther off as long as there is such a place beside and it is
+    /// within the tolerance, in smaller and smaller steps (Hooke and Jeeves 1961).
+    Place worst_nearby(
+        const FittedPaint& paint, const NearBorder& border, Place worst, double spacing) const {
+        DrawingPoint along = paint.gradient ? paint.gradient->axis : DrawingPoint{1, 0};
+        const double length = std::sqrt(along.x * along.x + along.y * along.y);
+        along = {along.x / length, along.y / length};
+        const DrawingPoint ways[] = {
+            along, {-along.x, -along.y}, {-along.y, along.x}, {along.y, -along.x}};
+        constexpr int most_moves = 8;
+        for (double step = spacing / 2; step >= spacing / 8; step /= 2)
+            for (int moves = 0; moves < most_moves; ++moves) {
+                const DrawingPoint from = worst.point;
+                for (const DrawingPoint way : ways) {
+                    const DrawingPoint to = {from.x + step * way.x, from.y + step * way.y};
+                    if (!border.encloses(to))
+                        continue;
+                    const double error = error_of(paint, {to, field_(to)});
+                    if (error > worst.error)
+                        worst = {to, error};
+                }
+                if (worst.error > tolerance_of_samples())
+                    return worst;
+                if (worst.point == from)
+                    break;
+            }
+        return worst;
     }
 
     FittedPaint best_paint(std::span<const ColorSample> samples) const {

@@ -23,10 +23,11 @@ void add_rings(PaintedRegion& region, std::span<const DrawingEllipse> curves);
 
 /// How well a paint is to agree with its field: at each place with what the field is there, or not
 /// farther than `within` away; at_border holds where the border of the region is nearer than half a
-/// pixel, as along silhouettes of curved surfaces colours change without bound.
+/// pixel and colours change by more than 3 of 255 within that, as along silhouettes of curved
+/// surfaces they do without bound.
 struct PaintTolerance {
     double color = 1.0 / 255; ///< in any of red, green and blue, 1 for 255
-    double within = 0.003;    ///< pixels
+    double within = 0.0003;   ///< pixels
     double at_border = 0.1;   ///< pixels
 };
 

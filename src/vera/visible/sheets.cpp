@@ -3,6 +3,7 @@
 
 #include "vera/base/long_loop.h"
 #include "vera/base/parallel.h"
+#include "vera/visible/screen_box.h"
 
 #include <algorithm>
 #include <array>
@@ -30,23 +31,9 @@ bool is_on_border(ScreenPoint a, ScreenPoint b) {
     return is_on_line(a.x, b.x) || is_on_line(a.y, b.y);
 }
 
-/// Whether the segment has a point of the square: no line parts them.
 bool do_meet(const Square& square, ScreenPoint a, ScreenPoint b) {
-    if (std::max(a.x, b.x) < square.low.x || std::min(a.x, b.x) > square.high.x
-        || std::max(a.y, b.y) < square.low.y || std::min(a.y, b.y) > square.high.y)
-        return false;
-    bool left = false;
-    bool right = false;
-    for (const ScreenPoint corner :
-         {square.low,
-          square.high,
-          ScreenPoint{square.low.x, square.high.y},
-          ScreenPoint{square.high.x, square.low.y}}) {
-        const std::int64_t side = orientation(a, b, corner);
-        left = left || side >= 0;
-        right = right || side <= 0;
-    }
-    return left && right;
+    return do_meet(
+        ScreenBox{{square.low.x, square.high.x}, {square.low.y, square.high.y}}, std::array{a, b});
 }
 
 /// Joins the triangles of one cell to sheets; kept from cell to cell.
