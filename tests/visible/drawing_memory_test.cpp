@@ -216,7 +216,7 @@ TEST(DrawingMemory, ADrawingTakesWhatIsForetold) {
         in_space(testing::terrain(1, 45)),
         in_space(testing::balls(1, 10, 24)),
         in_space(testing::slivers(1, 1'000)),
-        spheres(6),
+        spheres(3),
         men(4)};
     for (const SceneInView& view : views) {
         const Scene& scene = view.scene;
@@ -457,17 +457,14 @@ TEST(DrawingMemory, FacetsAreRefusedBeforeThereAreTooMany) {
 }
 
 TEST(DrawingMemory, ShadowsAreRefusedBeforeTheyAreThrown) {
-    ScreenScene screen = testing::scattered(1, 1'000, screen_size / 50);
-    const ShadowMemory memory(screen);
     {
         const MemoryLimit limit(std::uint64_t{1} << 60U);
-        memory.require(1'000'000);
+        require_throw_memory(1'000'000);
     }
     const MemoryLimit limit(1);
-    EXPECT_THAT(
-        refusal([&] { memory.require(1'000'000); }),
-        HasSubstr("drawing the 1000000 shadows of a light takes about "));
-    EXPECT_THAT(refusal([&] { memory.require(1'000'000); }), HasSubstr("--shadows off"));
+    const auto require = [] { require_throw_memory(1'000'000); };
+    EXPECT_THAT(refusal(require), HasSubstr("listing the 1000000 shadows of a light takes about "));
+    EXPECT_THAT(refusal(require), HasSubstr("--shadows off"));
 }
 
 TEST(DrawingMemory, WhereItRunsOutTheDrawingEndsAndLeavesNothing) {

@@ -3,6 +3,7 @@
 #include "vera/visible/light_frames.h"
 #include "vera/visible/projection.h"
 
+#include <array>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -40,12 +41,23 @@ void add_triangle(Seen& seen, const std::array<Vec3, 3>& corners, Vec3 viewer) {
     }
 }
 
+std::vector<LightFrame> frames_of(Vec3 light, const Seen& seen) {
+    return light_frames(
+               std::array{light},
+               seen.box,
+               [&](const auto& visit) {
+                   for (const SeenSegment& segment : seen.segments)
+                       visit(segment);
+               })
+        .front();
+}
+
 /// Whether every place is in a frame, and where no frame is too coarse in one that is fine there.
 void expect_fine_frames(Vec3 light, const std::array<Vec3, 3>& corners, bool is_fine) {
     const Vec3 viewer = {0, 1, -1};
     Seen seen;
     add_triangle(seen, corners, viewer);
-    const std::vector<LightFrame> frames = light_frames(light, seen.box, seen.segments);
+    const std::vector<LightFrame> frames = frames_of(light, seen);
     double coarse = 0;
     for (const LightFrame& frame : frames)
         coarse = std::max(coarse, frame.coarse_step);
@@ -73,9 +85,9 @@ void expect_fine_frames(Vec3 light, const std::array<Vec3, 3>& corners, bool is_
 TEST(LightFrames, AreOneWhereNothingNeedsMore) {
     Seen seen;
     add_triangle(seen, {Vec3{0, 0, 0}, {1, 0, 0}, {0, 0, 1}}, {0, 1, -1});
-    EXPECT_EQ(light_frames({0, 5, 0}, seen.box, seen.segments).size(), 1U);
+    EXPECT_EQ(frames_of({0, 5, 0}, seen).size(), 1U);
     // Downward and to four sides.
-    EXPECT_EQ(light_frames({0.2, 0.3, 0.2}, seen.box, seen.segments).size(), 5U);
+    EXPECT_EQ(frames_of({0.2, 0.3, 0.2}, seen).size(), 5U);
 }
 
 TEST(LightFrames, AreFineWhereThingsAreNearTheViewer) {
@@ -90,7 +102,7 @@ TEST(LightFrames, TellWhereNoneIsFineEnough) {
     // are.
     Seen seen;
     add_triangle(seen, {Vec3{-1e6, 0, -5}, {1e6, 0, -5}, {0, 1e6, -5}}, {0, 0, 0});
-    const auto frames = light_frames({0, 0, -1e6}, seen.box, seen.segments);
+    const auto frames = frames_of({0, 0, -1e6}, seen);
     EXPECT_LE(frames.size(), 6U * 32);
     EXPECT_GT(frames.back().coarse_step, 0);
 }

@@ -125,11 +125,15 @@ TEST(PieceLists, KeptAndFoundPiecesAreMergedAsAllByTheirEdges) {
             order.emplace_back(&found, i);
         std::ranges::stable_sort(
             order, {}, [](const auto& piece) { return piece.first->pieces[piece.second].edge; });
+        VisiblePieces left = before;
+        keep_pieces(is_kept, left);
+        const bool has_lights = !left.unlit.empty() || !found.unlit.empty();
         VisiblePieces expected;
         expected.penetrating = found.penetrating;
         for (const auto& [list, i] : order)
-            add_plainly(expected, *list, i, !before.unlit.empty() || !found.unlit.empty());
-        expect_same(merged(before, is_kept, found), expected, seed);
+            add_plainly(expected, *list, i, has_lights);
+        EXPECT_EQ(left.pieces.size(), order.size() - found.pieces.size()) << seed;
+        expect_same(merged(left, found), expected, seed);
         kept += static_cast<std::size_t>(std::ranges::count(is_kept, 1));
         both += found.pieces.empty() || found.pieces.size() == order.size() ? 0 : 1;
     }

@@ -15,6 +15,9 @@ namespace vera {
 /// (Sutherland and Hodgman 1974).
 class CutPolygon {
 public:
+    // Each of six cuts adds one point at most; rounding may add others.
+    static constexpr std::size_t most = 15; ///< points
+
     explicit CutPolygon(const std::array<ImagePoint, 3>& corners) {
         for (const ImagePoint& corner : corners)
             points_[count_++] = corner;
@@ -47,9 +50,6 @@ public:
     std::span<ImagePoint> points() { return std::span(points_).first(count_); }
 
 private:
-    // Each of six cuts adds one point at most; rounding may add others.
-    static constexpr std::size_t most = 15;
-
     void add(const ImagePoint& point) {
         if (count_ < most)
             points_[count_++] = point;

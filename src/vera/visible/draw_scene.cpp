@@ -12,6 +12,7 @@
 #include "vera/visible/outline_strokes.h"
 #include "vera/visible/penetrations.h"
 #include "vera/visible/projection.h"
+#include "vera/visible/shadowed_raster.h"
 #include "vera/visible/shadows.h"
 #include "vera/visible/visible_map.h"
 
@@ -19,7 +20,6 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -62,15 +62,6 @@ bool has_shadows(const Scene& scene, const PictureSettings& picture, const DrawS
         return false;
     return has_fills(settings.style) ? picture.shadows && settings.style != DrawingStyle::ids
                                      : settings.shadow_lines;
-}
-
-/// Of the screen after shadows were added to it behind its surfaces.
-SceneChange added_shadows(const ScreenScene& screen, std::size_t surfaces) {
-    SceneChange change;
-    change.triangles.resize(screen.triangles.size() - surfaces);
-    std::iota(
-        change.triangles.begin(), change.triangles.end(), static_cast<std::uint32_t>(surfaces));
-    return change;
 }
 
 /// How long the stages of a drawing take, about, by what seeing without shadows takes.
@@ -126,9 +117,11 @@ struct Request {
     }
 
     /// Refuses a drawing that would not fit into memory.
-    ExpectPieces expect_pieces(const ScreenScene& screen, double curved_part) const {
-        return [&screen, curved_part, this](double pieces) {
+    ExpectPieces
+    expect_pieces(const ScreenScene& screen, double curved_part, std::size_t shadows = 0) const {
+        return [&screen, curved_part, shadows, this](double pieces) {
             ScreenCounts counts = counts_of(screen);
+            counts.shadows = shadows;
             counts.curved =
                 static_cast<std::size_t>(curved_part * static_cast<double>(counts.surfaces));
             require_drawing_memory(pieces, counts, settings.style, settings.outlines);
@@ -200,10 +193,9 @@ SeenScene seen_scene(Request& request) {
     return seen;
 }
 
-/// Adds the shadows to the screen, and their borders to what is seen.
+/// Adds the borders of shadows to what is seen.
 ShadowCounts see_shadows(Request& request, SeenScene& seen) {
-    const std::size_t surfaces = seen.screen.triangles.size();
-    const ShadowCounts counts = add_shadows(
+    const ThrownShadows thrown(
         {request.scene,
          seen.facets,
          seen.faces,
@@ -215,13 +207,16 @@ ShadowCounts see_shadows(Request& request, SeenScene& seen) {
         seen.screen,
         request.next_stage(request.times.shadows),
         request.cancel);
-    seen.whole.pieces = cell_raster_after(
-        added_shadows(seen.screen, surfaces),
-        std::move(seen.whole.pieces),
+    ShadowedPieces shadowed = shadowed_cell_raster(
         seen.screen,
+        std::move(seen.whole.pieces),
+        thrown,
         request.next_stage(request.times.seeing_shadows),
         request.cancel,
-        request.expect_pieces(seen.screen, seen.curved_part));
+        request.expect_pieces(seen.screen, seen.curved_part, thrown.count()));
+    seen.whole.pieces = std::move(shadowed.pieces);
+    ShadowCounts counts = thrown.counts();
+    counts.shadows = shadowed.shadows;
     return counts;
 }
 
@@ -284,7 +279,7 @@ Drawing painted(Request& request, SeenScene& seen, VisibleMap map) {
     }
     if (has_lines(settings.style))
         add_strokes(
-            {sources, seen.screen, seen.whole.pieces, &seen.uncut},
+            {sources, std::move(seen.screen), std::move(seen.whole.pieces), std::move(seen.uncut)},
             {.hidden = settings.style == DrawingStyle::hidden_lines,
              .shadows = settings.shadow_lines},
             request.next_stage(request.times.lines),

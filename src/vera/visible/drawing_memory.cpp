@@ -91,13 +91,14 @@ StyleBytes bytes_of(DrawingStyle style, FaceOutlines outlines) {
     case DrawingStyle::ids: // as areas that share their corners
         return {.piece = 75};
     case DrawingStyle::lines:
-        return {.piece = 390};
+        return {.piece = 220};
     case DrawingStyle::hidden_lines: // the edges of smooth ones are none
         return {.piece = 440, .surface = 530, .curved_surface = 150};
     case DrawingStyle::toon:
         if (are_later)
-            return {.piece = 280, .region = 600};
-        return {.piece = 430, .region = 730, .curved_region = 540, .surface = 70};
+            return {.piece = 200, .region = 700};
+        return {
+            .piece = 330, .curved_piece = 100, .region = 730, .curved_region = 540, .surface = 70};
     }
     return {};
 }
@@ -145,17 +146,12 @@ void require_drawing_memory(
         remedy);
 }
 
-void ShadowMemory::require(std::size_t shadows) const {
-    // The list of what throws which shadow, and the triangle, while vectors grow.
-    constexpr double per_shadow = 16 + 2 * (sizeof(ScreenTriangle) + sizeof(ScreenVertex));
-    // Its corners, before they are on the grid.
-    constexpr double per_outline = 180;
-    const auto count = static_cast<double>(shadows);
-    const double raster =
-        raster_bytes({before_.surfaces, before_.shadows + shadows, before_.vertices + shadows});
+void require_throw_memory(std::size_t throws) {
+    // In two vectors while one grows, or as it is kept.
+    constexpr double per_throw = 24;
     require_memory(
-        per_shadow * count + std::max(per_outline * count, raster),
-        "drawing the " + std::to_string(shadows) + " shadows of a light",
+        per_throw * static_cast<double>(throws),
+        "listing the " + std::to_string(throws) + " shadows of a light",
         "--shadows off leaves them out, " + std::string(remedy));
 }
 

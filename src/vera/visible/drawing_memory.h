@@ -46,18 +46,7 @@ void require_piece_memory(double pieces, double pairs = 0);
 void require_drawing_memory(
     double pieces, const ScreenCounts& counts, DrawingStyle style, FaceOutlines outlines);
 
-/// Looks, while shadows are added to a scene, whether there will be memory to see them.
-class ShadowMemory {
-public:
-    explicit ShadowMemory(const ScreenScene& screen)
-        : before_(counts_of(screen)) {}
-
-    /// Throws std::runtime_error where that does not suffice for the screen as it was with so many
-    /// more shadows of a light, of which each becomes about one triangle.
-    void require(std::size_t shadows) const;
-
-private:
-    ScreenCounts before_;
-};
+/// The same of the list of what throws shadows, if it has so many.
+void require_throw_memory(std::size_t throws);
 
 } // namespace vera

@@ -25,17 +25,23 @@ struct CellRaster {
     /// Of edges, which eighths of the slices of cells along them lie behind what covers these
     /// cells: see eighth_of(). Of those of fewer slices the last bits are set.
     std::vector<std::uint8_t> hidden_eighths;
-    std::vector<std::uint8_t> inner;     ///< as is_inner(); or empty
-    std::vector<std::uint32_t> shadowed; ///< as shadowed_source(); or empty: there is no shadow
+    /// Those before it surfaces alone have.
+    std::size_t first_shadow_edge = 0;
+    /// Of the edges from there on, as is_inner() and shadowed_source(); empty: there is no shadow.
+    std::vector<std::uint8_t> inner;
+    std::vector<std::uint32_t> shadowed;
     std::vector<std::uint8_t> is_near_change; ///< of edges; empty: all are
 
     /// Whether the edge is one between two parts of one shadow.
-    bool is_inner(std::uint32_t edge) const { return !inner.empty() && inner[edge] != 0; }
+    bool is_inner(std::uint32_t edge) const {
+        return !inner.empty() && edge >= first_shadow_edge && inner[edge - first_shadow_edge] != 0;
+    }
 
     /// Of an edge that nothing has but shadows on one source, that source: other sources' shadows
     /// do not matter beside it. no_source of one that surfaces alone have, else several_sources.
     std::uint32_t shadowed_source(std::uint32_t edge) const {
-        return shadowed.empty() ? no_source : shadowed[edge];
+        return shadowed.empty() || edge < first_shadow_edge ? no_source
+                                                            : shadowed[edge - first_shadow_edge];
     }
 
     /// Whether some light may not reach something that is seen.

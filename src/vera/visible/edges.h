@@ -5,6 +5,7 @@
 
 #include <array>
 #include <compare>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -27,6 +28,14 @@ struct ScreenEdges {
 
 ScreenEdges screen_edges(const ScreenScene& scene);
 
+/// Adds those of the triangles from that one on, whose vertices are from that one on and belong to
+/// no other triangle.
+void add_edges(
+    const ScreenScene& scene,
+    std::size_t first_triangle,
+    std::size_t first_vertex,
+    ScreenEdges& edges);
+
 /// The triangles beside an edge, which have it for a side, or no_triangle: where there are none, or
 /// several on one side.
 struct EdgeNeighbours {
@@ -37,8 +46,12 @@ struct EdgeNeighbours {
     bool are_two() const { return left != no_triangle && right != no_triangle; }
 };
 
-/// Of each edge.
-std::vector<EdgeNeighbours> edge_neighbours(const ScreenScene& scene, const ScreenEdges& edges);
+/// Of each edge, or of those from that one on, which only triangles from that one on have.
+std::vector<EdgeNeighbours> edge_neighbours(
+    const ScreenScene& scene,
+    const ScreenEdges& edges,
+    std::size_t first_triangle = 0,
+    std::size_t first_edge = 0);
 
 /// The surfaces that have each edge.
 struct EdgeTriangles {

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <utility>
 
 namespace vera {
 
@@ -104,37 +105,51 @@ void cut(std::array<double, 2>& part, const std::array<double, 2>& values) {
         part[1] = std::min(part[1], first / (first - last));
 }
 
-/// The frames of one direction.
-class Frames {
+/// The frames of one direction, step by step towards finer ones.
+class Direction {
 public:
-    Frames(const Axes& axes, Vec3 position, std::span<const SeenSegment> seen)
+    Direction(const Axes& axes, Vec3 position, const Window& window, double farthest)
         : axes_(axes)
         , position_(position)
-        , seen_(seen) {}
+        , framed_{{window, farthest}}
+        , needs_(1) {}
 
-    std::vector<LightFrame> of(const Window& window, double farthest) const;
+    bool is_done() const { return needs_.empty(); }
+
+    void look_at(const SeenSegment& segment);
+    void go_on();
+
+    std::vector<LightFrame> take() { return std::move(frames_); }
 
 private:
-    Need need(const Window& window, double farthest) const;
+    struct Framed {
+        Window window;
+        double farthest = 0;
+    };
 
     Axes axes_;
     Vec3 position_;
-    std::span<const SeenSegment> seen_;
+    std::vector<Framed> framed_;
+    std::vector<LightFrame> frames_; ///< of the first ones
+    std::vector<Need> needs_;        ///< of the others
 };
 
-/// The size of pixels and of steps, as seen from the light, is linear on planes. So where steps are
-/// too large ends on the borders of what is seen as well, and these tell all of it.
-Need Frames::need(const Window& window, double farthest) const {
-    const double step = window.side() / screen_size;
-    const double nearest = 0x1p-16 * farthest; // what is nearer is not shown
-    Need need;
-    for (const SeenSegment& segment : seen_) {
-        std::array<Vec3, 2> at; // in the axes
+/// Adds what the segment needs to the needs of the windows that have no frame yet. The size of
+/// pixels and of steps, as seen from the light, is linear on planes. So where steps are too large
+/// ends on the borders of what is seen as well, and these tell all of it.
+void Direction::look_at(const SeenSegment& segment) {
+    std::array<Vec3, 2> at; // in the axes
+    for (std::size_t i = 0; i < 2; ++i) {
+        const Vec3 to = segment.ends[i] - position_;
+        at[i] = {dot(to, axes_.across), dot(to, axes_.up), dot(to, axes_.forward)};
+    }
+    for (std::size_t number = 0; number < needs_.size(); ++number) {
+        const auto& [window, farthest] = framed_[frames_.size() + number];
+        const double step = window.side() / screen_size;
+        const double nearest = 0x1p-16 * farthest; // what is nearer is not shown
         std::array<double, 2> excess;
         std::array<double, 2> depth;
         for (std::size_t i = 0; i < 2; ++i) {
-            const Vec3 to = segment.ends[i] - position_;
-            at[i] = {dot(to, axes_.across), dot(to, axes_.up), dot(to, axes_.forward)};
             excess[i] = step * at[i].z - most_of_a_pixel * segment.pixels[i];
             depth[i] = at[i].z - nearest;
         }
@@ -143,6 +158,7 @@ Need Frames::need(const Window& window, double farthest) const {
         cut(part, depth);
         if (!(part[0] <= part[1]))
             continue;
+        Need& need = needs_[number];
         for (const double t : part) {
             const Vec3 p = at[0] + t * (at[1] - at[0]);
             need.window.include(p.x / p.z, p.y / p.z);
@@ -150,42 +166,36 @@ Need Frames::need(const Window& window, double farthest) const {
             need.step = std::max(need.step, step * p.z);
         }
     }
-    need.window = common(need.window, window);
-    return need;
 }
 
-std::vector<LightFrame> Frames::of(const Window& window, double farthest) const {
-    struct Framed {
-        Window window;
-        double farthest;
-    };
-
-    std::vector<Framed> all = {{window, farthest}};
-    std::vector<LightFrame> frames;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        const Framed here = all[i];
-        LightFrame& frame = frames.emplace_back();
+/// When all segments were looked at: makes the frames whose needs are known, and the windows of
+/// finer ones.
+void Direction::go_on() {
+    const std::vector<Need> needs = std::exchange(needs_, {});
+    for (Need finer : needs) {
+        const Framed here = framed_[frames_.size()];
+        finer.window = common(finer.window, here.window);
+        LightFrame& frame = frames_.emplace_back();
         frame.camera = camera_of(axes_, here.window);
         frame.farthest = here.farthest;
-        const Need finer = need(here.window, here.farthest);
         const double side = here.window.side();
         if (finer.window.empty())
             continue;
-        if (all.size() + 4 > most_frames || side <= 2 * least_side) {
+        if (framed_.size() + 4 > most_frames || side <= 2 * least_side) {
             frame.coarse_step = finer.step;
         } else if (finer.window.side() <= side / 2) {
-            all.push_back({square_around(finer.window), finer.farthest});
+            framed_.push_back({square_around(finer.window), finer.farthest});
         } else {
             for (const double x : {0.25, 0.75})
                 for (const double y : {0.25, 0.75}) {
                     const Window quarter =
                         square(here.window.left + x * side, here.window.low + y * side, side / 2);
                     if (!common(quarter, finer.window).empty())
-                        all.push_back({quarter, finer.farthest});
+                        framed_.push_back({quarter, finer.farthest});
                 }
         }
     }
-    return frames;
+    needs_.resize(framed_.size() - frames_.size());
 }
 
 /// How far the box reaches in that direction.
@@ -212,31 +222,60 @@ std::optional<double> half_side(const Box3& box, Vec3 forward) {
     return std::nullopt;
 }
 
-} // namespace
-
-std::vector<LightFrame>
-light_frames(Vec3 position, const Box3& box, std::span<const SeenSegment> seen) {
+/// In which the light sees all of the box, each as coarsely as that.
+std::vector<Direction> directions(Vec3 position, const Box3& box) {
     const Box3 about_light = {box.lower - position, box.upper - position};
     const Vec3 to_middle = center(about_light);
     const double distance = length(to_middle);
     if (distance > 0) {
         const Vec3 forward = to_middle / distance;
         if (const auto half = half_side(about_light, forward))
-            return Frames(axes_towards(forward), position, seen)
-                .of(square(0, 0, 2 * *half), reach(about_light, forward));
+            return {
+                {axes_towards(forward),
+                 position,
+                 square(0, 0, 2 * *half),
+                 reach(about_light, forward)}};
     }
-    std::vector<LightFrame> frames;
+    std::vector<Direction> result;
     for (std::size_t axis = 0; axis < 3; ++axis)
         for (const double side : {-1.0, 1.0}) {
             Vec3 forward;
             forward[axis] = side;
             const double farthest = reach(about_light, forward);
-            if (!(farthest > 0))
-                continue;
-            const auto of_side =
-                Frames(axes_towards(forward), position, seen).of(square(0, 0, 2), farthest);
-            frames.insert(frames.end(), of_side.begin(), of_side.end());
+            if (farthest > 0)
+                result.emplace_back(axes_towards(forward), position, square(0, 0, 2), farthest);
         }
+    return result;
+}
+
+} // namespace
+
+std::vector<std::vector<LightFrame>>
+light_frames(std::span<const Vec3> positions, const Box3& box, const SeenSegments& seen) {
+    std::vector<std::vector<Direction>> of_lights;
+    for (const Vec3 position : positions)
+        of_lights.push_back(directions(position, box));
+    const auto open_ones = [&] {
+        std::vector<Direction*> open;
+        for (std::vector<Direction>& of_light : of_lights)
+            for (Direction& direction : of_light)
+                if (!direction.is_done())
+                    open.push_back(&direction);
+        return open;
+    };
+    for (auto open = open_ones(); !open.empty(); open = open_ones()) {
+        seen([&](const SeenSegment& segment) {
+            for (Direction* direction : open)
+                direction->look_at(segment);
+        });
+        for (Direction* direction : open)
+            direction->go_on();
+    }
+    std::vector<std::vector<LightFrame>> frames(of_lights.size());
+    for (std::size_t i = 0; i < frames.size(); ++i)
+        for (Direction& direction : of_lights[i])
+            for (LightFrame& frame : direction.take())
+                frames[i].push_back(frame);
     return frames;
 }
 

@@ -4,7 +4,6 @@
 #include "vera/base/free_room.h"
 #include "vera/base/long_loop.h"
 #include "vera/base/progress_part.h"
-#include "vera/math/box3.h"
 #include "vera/shade/lighting.h"
 #include "vera/visible/cell_raster.h"
 #include "vera/visible/edges.h"
@@ -81,25 +80,28 @@ LightViews light_views(
     const Facets& facets,
     std::span<const std::uint32_t> looked_at,
     Vec3 position,
-    const Box3& box,
-    std::span<const SeenSegment> seen,
+    std::span<const LightFrame> frames,
     const Progress& progress,
     const CancelFlag* cancel) {
     LightViews result = {LitFacets(scene, facets), {}, 0, 0};
     // About the light, so that what is narrow or far away keeps its digits.
-    Facets moved = facets;
-    for (Vec3& corner : moved.corners)
-        corner = corner - position;
-    moved.triangles.clear();
+    Facets moved;
+    moved.corners.reserve(facets.corners.size());
+    for (const Vec3& corner : facets.corners)
+        moved.corners.push_back(corner - position);
+    moved.triangles.reserve(looked_at.size());
     for (const std::uint32_t facet : looked_at)
         moved.triangles.push_back(facets.triangles[facet]);
-    const std::vector<LightFrame> frames = light_frames(position, box, seen);
     for (std::size_t i = 0; i < frames.size(); ++i) {
         result.coarse_step = std::max(result.coarse_step, frames[i].coarse_step);
         // What is behind all that is seen throws no shadow on it, and would take from the depths.
         LightView view;
         view.screen = screen_scene(
             moved, CameraMap(frames[i].camera), looked_at, 1.001 * frames[i].farthest, cancel);
+        if (i + 1 == frames.size()) {
+            free_room(moved.corners);
+            free_room(moved.triangles);
+        }
         if (view.screen.triangles.empty())
             continue;
         result.cut_nearness = std::max(result.cut_nearness, view.screen.cut_nearness);

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "vera/base/parallel.h"
-#include "vera/math/box3.h"
 #include "vera/math/vec3.h"
 #include "vera/scene/facets.h"
 #include "vera/scene/scene.h"
@@ -58,15 +57,14 @@ struct LightViews {
     double cut_nearness = 0;      ///< what is so near, in the scene's units, they do not show; or 0
 };
 
-/// Of those facets that are looked at, by their numbers, and lie between the light and the box, in
-/// the frames that light_frames() tells.
+/// Of those facets that are looked at, by their numbers, and lie between the light and what the
+/// frames show: those that light_frames() tells.
 LightViews light_views(
     const Scene& scene,
     const Facets& facets,
     std::span<const std::uint32_t> looked_at,
     Vec3 position,
-    const Box3& box,
-    std::span<const SeenSegment> seen,
+    std::span<const LightFrame> frames,
     const Progress& progress = {},
     const CancelFlag* cancel = nullptr);
 

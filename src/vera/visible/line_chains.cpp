@@ -35,14 +35,13 @@ public:
     }
 
     /// Open chains from their ends on, then what is left: closed ones.
-    std::vector<LineChain> all() {
-        std::vector<LineChain> chains;
+    template <typename Visit>
+    void for_each(const Visit& visit) {
         for (const bool from_ends : {true, false})
             for (const std::uint32_t part : numbers_)
                 for (const std::uint32_t begin : parts_[part].ends)
                     if (is_done_[part] == 0 && (!from_ends || next_at(begin, part) == no_part))
-                        chains.push_back(followed(part, begin));
-        return chains;
+                        visit(followed(part, begin));
     }
 
 private:
@@ -101,9 +100,12 @@ private:
 
 } // namespace
 
-std::vector<LineChain>
-line_chains(std::span<const LinePart> parts, LineClass line_class, std::size_t point_count) {
-    return Chains(parts, line_class, point_count).all();
+void for_each_line_chain(
+    std::span<const LinePart> parts,
+    LineClass line_class,
+    std::size_t point_count,
+    const std::function<void(LineChain chain)>& visit) {
+    Chains(parts, line_class, point_count).for_each(visit);
 }
 
 } // namespace vera

@@ -6,6 +6,7 @@
 #include "vera/visible/outline_curves.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -33,10 +34,13 @@ struct LineChain {
     bool closed = false;
 };
 
-/// The parts of one class as chains, each part in one. Where more than two end at a point, those go
-/// on in each other that lie on one curve, or in one straight line. Only points below point_count
-/// are used.
-std::vector<LineChain>
-line_chains(std::span<const LinePart> parts, LineClass line_class, std::size_t point_count);
+/// Calls visit(chain) for the parts of one class as chains, each part in one: open ones first.
+/// Where more than two end at a point, those go on in each other that lie on one curve, or in one
+/// straight line. Only points below point_count are used.
+void for_each_line_chain(
+    std::span<const LinePart> parts,
+    LineClass line_class,
+    std::size_t point_count,
+    const std::function<void(LineChain chain)>& visit);
 
 } // namespace vera

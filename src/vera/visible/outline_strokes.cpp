@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/outline_strokes.h"
 
+#include "vera/base/free_room.h"
 #include "vera/base/long_loop.h"
 #include "vera/base/parallel.h"
 #include "vera/base/progress_part.h"
@@ -86,30 +87,41 @@ void add_joined_parts(
     }
 }
 
-std::vector<LinePart>
-visible_parts(const StrokeSources& sources, const LineRules& rules, const CancelFlag* cancel) {
+/// Those of the classes that are drawn.
+std::vector<LinePart> visible_parts(
+    const StrokeSources& sources,
+    const LineRules& rules,
+    const ExtraLines& extra,
+    const CancelFlag* cancel) {
+    constexpr std::uint8_t no_class = 255;
     const std::vector<VisiblePiece>& pieces = sources.pieces.pieces;
-    std::vector<std::optional<LineClass>> classes(pieces.size());
+    std::vector<std::uint8_t> classes(pieces.size());
     parallel_ranges(pieces.size(), 1024, [&](std::size_t first, std::size_t last) {
         stop_if_raised(cancel);
-        for (std::size_t i = first; i < last; ++i)
-            classes[i] = rules.class_of(pieces[i]);
+        for (std::size_t i = first; i < last; ++i) {
+            const std::optional<LineClass> found = rules.class_of(pieces[i]);
+            const bool is_drawn = found && (extra.shadows || found != LineClass::shadow);
+            classes[i] = is_drawn ? static_cast<std::uint8_t>(*found) : no_class;
+        }
     });
     const auto face_of = [&](std::uint32_t triangle) {
         return triangle == no_triangle ? no_source : sources.screen.triangles[triangle].source;
     };
     std::vector<LinePart> parts;
+    parts.reserve(
+        classes.size()
+        - static_cast<std::size_t>(std::count(classes.begin(), classes.end(), no_class)));
     const LongLoop loop(pieces.size(), {}, cancel);
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         loop.turn(i);
-        if (!classes[i])
+        if (classes[i] == no_class)
             continue;
         LinePart& part = parts.emplace_back();
         part.ends = {pieces[i].from, pieces[i].to};
         part.step = step(
             sources.screen.vertices[pieces[i].edge.begin].point,
             sources.screen.vertices[pieces[i].edge.end].point);
-        part.line_class = *classes[i];
+        part.line_class = static_cast<LineClass>(classes[i]);
         part.faces = {face_of(pieces[i].left), face_of(pieces[i].right)};
         part.is_between_neighbours = rules.is_between_neighbours(pieces[i]);
     }
@@ -120,7 +132,7 @@ visible_parts(const StrokeSources& sources, const LineRules& rules, const Cancel
 /// Of different things, or of one that is not smooth there.
 std::vector<HiddenIntersection>
 intersections_of(const StrokeSources& sources, const CancelFlag* cancel) {
-    const ScreenScene& uncut = *sources.uncut;
+    const ScreenScene& uncut = sources.uncut;
     const auto facet_of = [&](std::uint32_t triangle) -> const Facets::Triangle& {
         const std::uint32_t face = uncut.triangles[triangle].source;
         return sources.facets.triangles[sources.faces.first_facet[face]];
@@ -161,7 +173,7 @@ void add_hidden_parts(
             const HiddenIntersection& intersection = intersections[part.edge - edges.edges.size()];
             line.step = step(intersection.begin, intersection.end);
             for (std::size_t j = 0; j < 2; ++j)
-                line.faces[j] = sources.uncut->triangles[intersection.triangles[j]].source;
+                line.faces[j] = sources.uncut.triangles[intersection.triangles[j]].source;
             continue;
         }
         const auto& [begin, end] = edges.edges[part.edge];
@@ -226,14 +238,15 @@ struct Constraint {
 };
 
 /// Of the points on curves, sorted by point, curves first.
-std::vector<Constraint> constraints_of(const LineParts& lines) {
-    std::vector<std::uint8_t> is_on_curve(lines.points.size());
-    for (const LinePart& part : lines.parts)
+std::vector<Constraint>
+constraints_of(const std::vector<LinePart>& parts, std::size_t point_count) {
+    std::vector<std::uint8_t> is_on_curve(point_count);
+    for (const LinePart& part : parts)
         if (part.curve != no_curve)
             for (const std::uint32_t vertex : part.ends)
                 is_on_curve[vertex] = 1;
     std::vector<Constraint> constraints;
-    for (const LinePart& part : lines.parts)
+    for (const LinePart& part : parts)
         for (const std::uint32_t vertex : part.ends)
             if (is_on_curve[vertex] != 0)
                 constraints.push_back({vertex, part.curve, part.step});
@@ -249,10 +262,10 @@ std::vector<Constraint> constraints_of(const LineParts& lines) {
 void move_to_curves(
     const StrokeSources& sources,
     const OutlineCurves& curves,
-    const LineParts& lines,
+    const std::vector<LinePart>& parts,
     const CancelFlag* cancel,
     std::vector<DrawingPoint>& places) {
-    const std::vector<Constraint> constraints = constraints_of(lines);
+    const std::vector<Constraint> constraints = constraints_of(parts, places.size());
     const auto track = [&](const Constraint& to) {
         if (to.curve != no_curve)
             return LineTrack{&curves[to.curve], {}, {}};
@@ -355,10 +368,46 @@ private:
     const std::vector<DrawingPoint>& places_;
 };
 
+/// Of the screen, which is forgotten with its pieces.
+LineParts line_parts(
+    StrokeSources& sources,
+    const ExtraLines& extra,
+    StageProgress& stages,
+    const CancelFlag* cancel) {
+    stages.next(2);
+    LineParts lines;
+    {
+        const LineRules rules(
+            sources.scene,
+            sources.camera,
+            sources.facets,
+            sources.faces,
+            sources.screen,
+            sources.pieces.points);
+        lines.parts = visible_parts(sources, rules, extra, cancel);
+        stop_if_raised(cancel);
+        const Progress of_hidden = stages.next(3);
+        if (extra.hidden) {
+            lines.points = sources.pieces.points;
+            add_hidden_parts(sources, rules, of_hidden, cancel, lines);
+        } else {
+            lines.points = std::move(sources.pieces.points);
+        }
+    }
+    for (ScreenScene* screen : {&sources.screen, &sources.uncut}) {
+        free_room(screen->triangles);
+        free_room(screen->vertices);
+    }
+    free_room(sources.pieces.points);
+    free_room(sources.pieces.pieces);
+    free_room(sources.pieces.unlit);
+    return lines;
+}
+
 } // namespace
 
 void add_strokes(
-    const StrokeSources& sources,
+    StrokeSources sources,
     const ExtraLines& extra,
     const Progress& progress,
     const CancelFlag* cancel,
@@ -368,26 +417,14 @@ void add_strokes(
         stop_if_raised(cancel);
         return stages.next(weight);
     };
-    next_stage(2);
-    const LineRules rules(
-        sources.scene,
-        sources.camera,
-        sources.facets,
-        sources.faces,
-        sources.screen,
-        sources.pieces.points);
-    LineParts lines = {visible_parts(sources, rules, cancel), sources.pieces.points};
-    if (!extra.shadows)
-        std::erase_if(
-            lines.parts, [](const LinePart& part) { return part.line_class == LineClass::shadow; });
-    if (const Progress of_hidden = next_stage(3); extra.hidden)
-        add_hidden_parts(sources, rules, of_hidden, cancel, lines);
+    LineParts lines = line_parts(sources, extra, stages, cancel);
 
     next_stage(1);
     std::vector<DrawingPoint> places;
     places.reserve(lines.points.size());
     for (const PackedPoint& point : lines.points)
         places.push_back(in_pixels(sources.picture, point));
+    free_room(lines.points);
     leave_out_second_lines(
         sources.facets,
         sources.faces,
@@ -398,7 +435,7 @@ void add_strokes(
     next_stage(2);
     const OutlineCurves curves = curves_of(sources, lines.parts);
     find_curves(sources, curves, places, cancel, lines.parts);
-    move_to_curves(sources, curves, lines, cancel, places);
+    move_to_curves(sources, curves, lines.parts, cancel, places);
     next_stage(1);
     unite_on_curves(curves, tolerance(sources), cancel, lines.parts, places);
 
@@ -406,13 +443,12 @@ void add_strokes(
     const Progress of_classes = next_stage(1);
     for (std::size_t i = 0; i < line_class_names.size(); ++i) {
         const auto line_class = static_cast<LineClass>(i);
-        std::vector<LineChain> chains = line_chains(lines.parts, line_class, places.size());
-        const LongLoop loop(
-            chains.size(), progress_part(of_classes, i, line_class_names.size()), cancel);
-        for (std::size_t j = 0; j < chains.size(); ++j) {
-            loop.turn(j);
-            drawing.strokes.push_back(maker.stroke(line_class, std::move(chains[j])));
-        }
+        if (of_classes)
+            of_classes(static_cast<double>(i) / static_cast<double>(line_class_names.size()));
+        for_each_line_chain(lines.parts, line_class, places.size(), [&](LineChain chain) {
+            stop_if_raised(cancel);
+            drawing.strokes.push_back(maker.stroke(line_class, std::move(chain)));
+        });
     }
 }
 

@@ -9,24 +9,24 @@
 
 namespace vera {
 
-/// What lines are drawn from.
+/// What lines are drawn from; what is theirs alone is forgotten on the way.
 struct StrokeSources : MapSources {
-    const ScreenScene& screen;
-    const VisiblePieces& pieces;
-    const ScreenScene* uncut = nullptr; ///< for hidden lines: before what penetrates was cut
+    ScreenScene screen;
+    VisiblePieces pieces;
+    ScreenScene uncut; ///< for hidden lines: before what penetrates was cut
 };
 
 /// Lines that not every drawing is to have.
 struct ExtraLines {
     bool hidden = false;  ///< what is not seen of silhouettes, creases and intersections
-    bool shadows = false; ///< where the screen's shadows end
+    bool shadows = false; ///< where shadows end
 };
 
 /// Adds the lines that part what is seen, by class, and the extra ones. The frame is no line. What
 /// goes on in each other becomes one stroke, and what lies on an ellipse of a curved primitive an
 /// arc of it. Throws Cancelled.
 void add_strokes(
-    const StrokeSources& sources,
+    StrokeSources sources,
     const ExtraLines& extra,
     const Progress& progress,
     const CancelFlag* cancel,

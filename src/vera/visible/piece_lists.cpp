@@ -54,18 +54,11 @@ numbers_behind(std::vector<PackedPoint>& others, const std::vector<PackedPoint>&
     return result;
 }
 
-/// Calls visit(list, i) for the kept pieces i of those before and for those that were found, by
-/// their edges.
+/// Calls visit(list, i) for the pieces of both lists, by their edges.
 template <typename Visit>
-void for_each_merged(
-    const VisiblePieces& before,
-    const std::vector<std::uint8_t>& is_kept,
-    const VisiblePieces& found,
-    const Visit& visit) {
+void for_each_merged(const VisiblePieces& before, const VisiblePieces& found, const Visit& visit) {
     std::size_t next = 0;
     for (std::size_t i = 0; i < before.pieces.size(); ++i) {
-        if (is_kept[i] == 0)
-            continue;
         for (; next < found.pieces.size() && found.pieces[next].edge < before.pieces[i].edge;
              ++next)
             visit(found, next);
@@ -103,9 +96,45 @@ VisiblePieces joined(std::vector<VisiblePieces> parts) {
     return result;
 }
 
-VisiblePieces
-merged(VisiblePieces before, const std::vector<std::uint8_t>& is_kept, VisiblePieces found) {
+void keep_pieces(const std::vector<std::uint8_t>& is_kept, VisiblePieces& list) {
+    const std::size_t count = list.pieces.size();
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        if (is_kept[i] == 0)
+            continue;
+        list.pieces[kept] = list.pieces[i];
+        if (!list.unlit.empty())
+            list.unlit[kept] = list.unlit[i];
+        ++kept;
+    }
+    list.pieces.resize(kept);
+    list.unlit.resize(list.unlit.empty() ? 0 : kept);
+    if (kept > count / 2)
+        return;
+    list.pieces.shrink_to_fit();
+    list.unlit.shrink_to_fit();
+    constexpr std::uint32_t unused = ~std::uint32_t{0};
+    std::vector<std::uint32_t> numbers(list.points.size(), unused);
+    for (const VisiblePiece& piece : list.pieces)
+        numbers[piece.from] = numbers[piece.to] = 0;
+    std::uint32_t points = 0;
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+        if (numbers[i] != unused) {
+            list.points[points] = list.points[i];
+            numbers[i] = points++;
+        }
+    list.points.resize(points);
+    list.points.shrink_to_fit();
+    for (VisiblePiece& piece : list.pieces) {
+        piece.from = numbers[piece.from];
+        piece.to = numbers[piece.to];
+    }
+}
+
+VisiblePieces merged(VisiblePieces before, VisiblePieces found) {
     constexpr std::uint32_t none = PointNumbers::none;
+    if (before.pieces.empty())
+        return found;
     // Points of both lists have common numbers first: those of the found ones, then the others.
     const std::vector<std::uint32_t> common = numbers_behind(found.points, before.points);
     const auto common_of = [&](const VisiblePieces& list, std::uint32_t point) {
@@ -115,7 +144,7 @@ merged(VisiblePieces before, const std::vector<std::uint8_t>& is_kept, VisiblePi
     std::vector<std::uint32_t> numbers(found.points.size() + before.points.size(), none);
     std::uint32_t points = 0;
     std::size_t pieces = 0;
-    for_each_merged(before, is_kept, found, [&](const VisiblePieces& list, std::size_t i) {
+    for_each_merged(before, found, [&](const VisiblePieces& list, std::size_t i) {
         ++pieces;
         for (const std::uint32_t point : {list.pieces[i].from, list.pieces[i].to})
             if (std::uint32_t& number = numbers[common_of(list, point)]; number == none)
@@ -129,13 +158,15 @@ merged(VisiblePieces before, const std::vector<std::uint8_t>& is_kept, VisiblePi
                 result.points[number] = list->points[i];
         free_room(list->points);
     }
+    const bool may_be_unlit = !before.unlit.empty() || !found.unlit.empty();
     result.pieces.reserve(pieces);
-    for_each_merged(before, is_kept, found, [&](const VisiblePieces& list, std::size_t i) {
+    result.unlit.reserve(may_be_unlit ? pieces : 0);
+    for_each_merged(before, found, [&](const VisiblePieces& list, std::size_t i) {
         VisiblePiece piece = list.pieces[i];
         piece.from = numbers[common_of(list, piece.from)];
         piece.to = numbers[common_of(list, piece.to)];
         result.pieces.push_back(piece);
-        if (!before.unlit.empty() || !found.unlit.empty())
+        if (may_be_unlit)
             result.unlit.push_back(list.unlit_beside(i));
     });
     result.penetrating = std::move(found.penetrating);

@@ -13,10 +13,11 @@ namespace vera {
 /// The parts one behind the other.
 VisiblePieces joined(std::vector<VisiblePieces> parts);
 
-/// The kept pieces of those before, and the ones that were found, which are of other edges, by
-/// their edges: as if all had been found together. Lights are those of both; what penetrates is
-/// that which was found.
-VisiblePieces
-merged(VisiblePieces before, const std::vector<std::uint8_t>& is_kept, VisiblePieces found);
+/// Leaves out the other pieces and, where these are most, the points that only they have.
+void keep_pieces(const std::vector<std::uint8_t>& is_kept, VisiblePieces& list);
+
+/// The pieces before, and the ones that were found, which are of other edges, by their edges: as if
+/// all had been found together. Lights are those of both; what penetrates is that which was found.
+VisiblePieces merged(VisiblePieces before, VisiblePieces found);
 
 } // namespace vera

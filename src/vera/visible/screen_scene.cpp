@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/screen_scene.h"
 
+#include "vera/base/free_room.h"
 #include "vera/base/long_loop.h"
 
 #include <algorithm>
@@ -152,14 +153,17 @@ void sort_by_place(ScreenScene& scene, const CancelFlag* cancel) {
         for (std::size_t place = first; place < last; ++place)
             triangles[place] = scene.triangles[order[place].triangle];
     });
+    scene.triangles = std::move(triangles);
+    free_room(order);
     constexpr std::uint32_t unused = ~std::uint32_t{0};
     std::vector<std::uint32_t> numbers(scene.vertices.size(), unused);
     std::vector<std::uint32_t> used;
     used.reserve(scene.vertices.size());
-    const LongLoop loop(order.size(), {}, cancel);
-    for (std::size_t place = 0; place < order.size(); ++place) {
+    const LongLoop loop(scene.triangles.size(), {}, cancel);
+    for (std::size_t place = 0; place < scene.triangles.size(); ++place) {
         loop.turn(place);
-        for (auto* corners : {&triangles[place].vertices, &triangles[place].plane})
+        ScreenTriangle& triangle = scene.triangles[place];
+        for (auto* corners : {&triangle.vertices, &triangle.plane})
             for (std::uint32_t& vertex : *corners) {
                 if (numbers[vertex] == unused) {
                     numbers[vertex] = static_cast<std::uint32_t>(used.size());
@@ -174,7 +178,6 @@ void sort_by_place(ScreenScene& scene, const CancelFlag* cancel) {
             vertices[i] = scene.vertices[used[i]];
     });
     scene.vertices = std::move(vertices);
-    scene.triangles = std::move(triangles);
 }
 
 } // namespace vera

@@ -129,6 +129,11 @@ void leave_out_second_lines(
             == facets.triangles[faces.first_facet[other]].primitive
             && distance(places[part.ends[0]], places[part.ends[1]]) <= tolerance;
     });
+    const auto is_hidden = [](const LinePart& part) {
+        return part.line_class == LineClass::hidden;
+    };
+    if (std::ranges::none_of(parts, is_hidden))
+        return;
     const SeenSilhouettes seen(facets, faces, places, parts);
     std::erase_if(parts, [&](const LinePart& part) {
         stop_if_raised(cancel);

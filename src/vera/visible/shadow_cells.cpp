@@ -28,9 +28,10 @@ ShadowCells shadow_cells_of(
     const Cells& cells,
     const ScreenScene& scene,
     std::span<const NearnessSlope> slopes,
-    const CancelFlag* cancel) {
+    const CancelFlag* cancel,
+    std::size_t first_triangle) {
     std::vector<std::uint32_t> by_source;
-    for (std::uint32_t i = 0; i < scene.triangles.size(); ++i)
+    for (auto i = static_cast<std::uint32_t>(first_triangle); i < scene.triangles.size(); ++i)
         if (scene.triangles[i].is_shadow())
             by_source.push_back(i);
     std::stable_sort(by_source.begin(), by_source.end(), [&](std::uint32_t a, std::uint32_t b) {

@@ -27,11 +27,13 @@ struct ShadowCells {
 };
 
 /// In those cells, but where they are hidden. Throws std::runtime_error where the lists would not
-/// fit into the memory that is available. slopes[i] is that of triangle i.
+/// fit into the memory that is available. slopes[i] is that of triangle i. Triangles before the
+/// first one are no shadows.
 ShadowCells shadow_cells_of(
     const Cells& cells,
     const ScreenScene& scene,
     std::span<const NearnessSlope> slopes,
-    const CancelFlag* cancel = nullptr);
+    const CancelFlag* cancel = nullptr,
+    std::size_t first_triangle = 0);
 
 } // namespace vera

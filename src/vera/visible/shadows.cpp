@@ -7,44 +7,59 @@
 #include "vera/visible/cell_raster.h"
 #include "vera/visible/cells.h"
 #include "vera/visible/closed_bodies.h"
-#include "vera/visible/cut_polygon.h"
 #include "vera/visible/drawing_memory.h"
 #include "vera/visible/light_views.h"
-#include "vera/visible/vertex_numbers.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <mutex>
+#include <numeric>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace vera {
 
 namespace {
 
-/// A face as what shadows fall on.
-struct Receiver {
-    /// Where it is on the screen, with some steps around it: shadows end there.
-    ScreenPoint low = {screen_size, screen_size};
-    ScreenPoint high = {0, 0};
-    std::uint32_t largest = no_triangle; ///< of its triangles on the screen
-    bool is_seen = false;
-};
+/// By the largest of the facets.
+FacePlane plane_of(const ShadowedScene& shadowed, std::uint32_t facet, std::uint32_t end_facet) {
+    FacePlane plane;
+    double largest = 0;
+    for (std::uint32_t i = facet; i < end_facet; ++i) {
+        const auto corner = [&](std::size_t j) {
+            return shadowed.facets.corners[shadowed.facets.triangles[i].corners[j]];
+        };
+        const Vec3 normal = cross(corner(1) - corner(0), corner(2) - corner(0));
+        const double area = length(normal);
+        if (area > largest) {
+            largest = area;
+            plane = {corner(0), normal / area};
+        }
+    }
+    return plane;
+}
+
+/// Behind the facets of a plane face, which follow each other.
+std::uint32_t end_facet(const ShadowedScene& shadowed, std::uint32_t face) {
+    const auto& first = shadowed.faces.first_facet;
+    return face + 1 < first.size() ? first[face + 1]
+                                   : static_cast<std::uint32_t>(shadowed.facets.triangles.size());
+}
 
 /// Of each face.
-std::vector<Receiver>
+std::vector<ShadowReceiver>
 receivers_of(const ScreenScene& screen, const VisiblePieces& seen, std::size_t faces) {
     // Beyond its sides, so that no crumb of the face is left lit between them and the shadow.
     constexpr std::int32_t around = 8;
-    std::vector<Receiver> receivers(faces);
+    std::vector<ShadowReceiver> receivers(faces);
     std::vector<std::int64_t> areas(faces);
     for (std::uint32_t i = 0; i < screen.triangles.size(); ++i) {
         const std::uint32_t face = screen.triangles[i].source;
-        Receiver& receiver = receivers[face];
+        ShadowReceiver& receiver = receivers[face];
         const auto corners = corners_of(screen, screen.triangles[i]);
         for (const ScreenVertex& corner : corners) {
             const ScreenPoint p = corner.point;
@@ -68,50 +83,20 @@ receivers_of(const ScreenScene& screen, const VisiblePieces& seen, std::size_t f
     return receivers;
 }
 
-/// The plane of a face, whose normal is on the side of the light.
-struct FacePlane {
-    Vec3 point;
-    Vec3 normal; ///< unit, or 0 of a face without an area
-
-    double height(Vec3 p) const { return dot(normal, p - point); }
-};
-
-/// By the largest of its facets.
-FacePlane plane_of(const ShadowedScene& shadowed, std::uint32_t face, std::uint32_t end_facet) {
-    FacePlane plane;
-    double largest = 0;
-    for (std::uint32_t i = shadowed.faces.first_facet[face]; i < end_facet; ++i) {
-        const auto corner = [&](std::size_t j) {
-            return shadowed.facets.corners[shadowed.facets.triangles[i].corners[j]];
-        };
-        const Vec3 normal = cross(corner(1) - corner(0), corner(2) - corner(0));
-        const double area = length(normal);
-        if (area > largest) {
-            largest = area;
-            plane = {corner(0), normal / area};
-        }
-    }
-    return plane;
-}
-
 /// How high over the plane the viewer is: of parallel rays only the sign tells.
 double viewer_height(const Camera& camera, const FacePlane& plane) {
     return camera.projection == Camera::Projection::parallel ? -dot(plane.normal, camera.direction)
                                                              : plane.height(camera.viewpoint);
 }
 
-/// What is seen: the borders of it, each on the planes beside it, and a box of them.
-struct SeenPlaces {
-    std::vector<SeenSegment> segments;
-    Box3 box;
-};
-
-SeenPlaces
-seen_places(const ShadowedScene& shadowed, const ScreenScene& screen, const CancelFlag* cancel) {
-    Box3 all;
-    for (const Vec3& corner : shadowed.facets.corners)
-        all = grown(all, corner);
-    SeenPlaces seen;
+/// Calls visit(segment) for the borders of what is seen, each on the planes beside it, within the
+/// box of all.
+void for_each_seen(
+    const ShadowedScene& shadowed,
+    const ScreenScene& screen,
+    const Box3& all,
+    const CancelFlag* cancel,
+    const std::function<void(const SeenSegment&)>& visit) {
     const LongLoop loop(shadowed.seen.pieces.size(), {}, cancel);
     for (std::size_t number = 0; number < shadowed.seen.pieces.size(); ++number) {
         loop.turn(number);
@@ -121,7 +106,7 @@ seen_places(const ShadowedScene& shadowed, const ScreenScene& screen, const Canc
                 continue;
             const std::uint32_t face = screen.triangles[triangle].source;
             const std::uint32_t facet = shadowed.faces.first_facet[face];
-            const FacePlane plane = plane_of(shadowed, face, facet + 1);
+            const FacePlane plane = plane_of(shadowed, facet, facet + 1);
             SeenSegment segment;
             for (std::size_t i = 0; i < 2; ++i) {
                 const RationalPoint& end = shadowed.seen.points[i == 0 ? piece.from : piece.to];
@@ -133,24 +118,38 @@ seen_places(const ShadowedScene& shadowed, const ScreenScene& screen, const Canc
                 segment.ends[i] = min(max(at, all.lower), all.upper);
                 segment.pixels[i] =
                     shadowed.map.size_of_pixel(shadowed.width, shadowed.height, segment.ends[i]);
-                seen.box = grown(seen.box, segment.ends[i]);
             }
-            seen.segments.push_back(segment);
+            visit(segment);
         }
     }
-    const bool is_finite = std::isfinite(length(seen.box.upper - seen.box.lower));
-    if (seen.box.empty() || !is_finite)
-        seen.box = all;
-    return seen;
 }
 
-/// A face on which shadows of a light may fall.
+/// Where the lights look, each in its frames.
+std::vector<std::vector<LightFrame>> frames_of_lights(
+    const ShadowedScene& shadowed,
+    const ScreenScene& screen,
+    std::span<const Vec3> positions,
+    const CancelFlag* cancel) {
+    Box3 all;
+    for (const Vec3& corner : shadowed.facets.corners)
+        all = grown(all, corner);
+    Box3 box;
+    for_each_seen(shadowed, screen, all, cancel, [&](const SeenSegment& segment) {
+        for (const Vec3& end : segment.ends)
+            box = grown(box, end);
+    });
+    const bool is_finite = std::isfinite(length(box.upper - box.lower));
+    if (box.empty() || !is_finite)
+        box = all;
+    return light_frames(positions, box, [&](const auto& visit) {
+        for_each_seen(shadowed, screen, all, cancel, visit);
+    });
+}
+
+/// A face that a light may reach a part of.
 struct Receiving {
     std::uint32_t face = 0;
-    FacePlane plane;
-    double light_height = 0;
-    /// What is no higher lies in the plane: within what the grid may have moved it.
-    double flat = 0;
+    double flat = 0; ///< as in ThrownShadows::Lit
 };
 
 /// A facet that throws a shadow on a face, by their numbers.
@@ -200,35 +199,46 @@ void add_throws(
     throws.erase(std::unique(begin, throws.end()), throws.end());
 }
 
-/// The shadows of one light.
-class LightShadows {
+} // namespace
+
+FacePlane plane_of_face(const ShadowedScene& shadowed, std::uint32_t face) {
+    return plane_of(shadowed, shadowed.faces.first_facet[face], end_facet(shadowed, face));
+}
+
+FacePlane plane_towards(const ShadowedScene& shadowed, std::uint32_t face, Vec3 position) {
+    FacePlane plane = plane_of_face(shadowed, face);
+    if (plane.height(position) < 0)
+        plane.normal = -plane.normal;
+    return plane;
+}
+
+/// What is thrown in the light of one lamp.
+class ThrownShadows::OneLight {
 public:
-    LightShadows(
+    OneLight(
         const ShadowedScene& shadowed,
-        std::span<const Receiver> receivers,
-        const SeenPlaces& seen,
+        std::span<const ShadowReceiver> receivers,
         std::uint32_t light,
         ScreenScene& screen,
         const CancelFlag* cancel)
         : shadowed_(shadowed)
         , receivers_(receivers)
-        , seen_(seen)
         , light_(light)
         , position_(shadowed.scene.lights[light].position)
         , screen_(screen)
-        , memory_(screen)
         , cancel_(cancel) {}
 
-    void add(const ClosedBodies& bodies, const Progress& progress, ShadowCounts& counts);
+    Light find(
+        const ClosedBodies& bodies,
+        std::span<const LightFrame> frames,
+        const Progress& progress,
+        ShadowCounts& counts);
 
 private:
     void find_turned();
     std::vector<std::uint32_t> facets_to_look_at(const ClosedBodies& bodies) const;
     void keep_partly_lit(const LitFacets& lit);
     std::vector<Throw> throws(const LightViews& views) const;
-    std::vector<ImagePoint> shadow(const Throw& thrown) const;
-    void
-    add_to_screen(const Throw& thrown, std::span<const ImagePoint> shadow, VertexNumbers& numbers);
 
     /// How high the point is over the outer side of the facet, in some unit.
     double outer_height(std::uint32_t facet, Vec3 point) const {
@@ -237,49 +247,34 @@ private:
         return dot(cross(corner(1) - corner(0), corner(2) - corner(0)), point - corner(0));
     }
 
-    std::uint32_t end_facet(std::uint32_t face) const {
-        const auto& first = shadowed_.faces.first_facet;
-        return face + 1 < first.size()
-            ? first[face + 1]
-            : static_cast<std::uint32_t>(shadowed_.facets.triangles.size());
-    }
-
     const ShadowedScene& shadowed_;
-    std::span<const Receiver> receivers_;
-    const SeenPlaces& seen_;
+    std::span<const ShadowReceiver> receivers_;
     std::uint32_t light_;
     Vec3 position_;
     ScreenScene& screen_;
-    ShadowMemory memory_;
     const CancelFlag* cancel_;
     std::vector<Receiving> turned_; ///< to the light; then those that it reaches a part of
 };
 
 /// Finds the faces of which the viewer sees the side that is turned to the light: the lighting
 /// formula gives nothing to the others.
-void LightShadows::find_turned() {
+void ThrownShadows::OneLight::find_turned() {
     const LongLoop loop(receivers_.size(), {}, cancel_);
     for (std::uint32_t face = 0; face < receivers_.size(); ++face) {
         loop.turn(face);
         if (!receivers_[face].is_seen)
             continue;
-        FacePlane plane = plane_of(shadowed_, face, end_facet(face));
-        double light_height = plane.height(position_);
-        double from_viewer = viewer_height(shadowed_.camera, plane);
-        if (light_height < 0) {
-            plane.normal = -plane.normal;
-            light_height = -light_height;
-            from_viewer = -from_viewer;
-        }
-        if (light_height > 0 && from_viewer > 0)
-            turned_.push_back({face, plane, light_height, 0});
+        const FacePlane plane = plane_towards(shadowed_, face, position_);
+        if (plane.height(position_) > 0 && viewer_height(shadowed_.camera, plane) > 0)
+            turned_.push_back({face, 0});
     }
 }
 
 /// The facets that the light's views are made of. From outside a closed body, what is seen behind a
 /// facet that faces away from the light is behind one that faces it as well: between the light and
 /// a place outside, a way goes out as often as it goes in.
-std::vector<std::uint32_t> LightShadows::facets_to_look_at(const ClosedBodies& bodies) const {
+std::vector<std::uint32_t>
+ThrownShadows::OneLight::facets_to_look_at(const ClosedBodies& bodies) const {
     std::vector<std::uint8_t> is_turned(receivers_.size());
     for (const Receiving& receiving : turned_)
         is_turned[receiving.face] = 1;
@@ -302,14 +297,15 @@ std::vector<std::uint32_t> LightShadows::facets_to_look_at(const ClosedBodies& b
 }
 
 /// Tells of which of the faces the light reaches nothing, and leaves those of which it does a part.
-void LightShadows::keep_partly_lit(const LitFacets& lit) {
+void ThrownShadows::OneLight::keep_partly_lit(const LitFacets& lit) {
     std::erase_if(turned_, [&](Receiving& receiving) {
         const std::uint32_t face = receiving.face;
         bool all = true;
         bool any_shown = false;
         bool any_lit = false;
         double step = std::numeric_limits<double>::infinity();
-        for (std::uint32_t i = shadowed_.faces.first_facet[face]; i < end_facet(face); ++i) {
+        for (std::uint32_t i = shadowed_.faces.first_facet[face]; i < end_facet(shadowed_, face);
+             ++i) {
             // What the light's views do not show is so small or near that nothing is before it.
             const bool is_shown = lit.is_shown(i) || !lit.is_opaque(i);
             any_shown = any_shown || is_shown;
@@ -329,7 +325,7 @@ void LightShadows::keep_partly_lit(const LitFacets& lit) {
     });
 }
 
-std::vector<Throw> LightShadows::throws(const LightViews& views) const {
+std::vector<Throw> ThrownShadows::OneLight::throws(const LightViews& views) const {
     constexpr std::uint32_t none = ~std::uint32_t{0};
     std::vector<std::uint32_t> number(receivers_.size(), none);
     for (std::uint32_t i = 0; i < turned_.size(); ++i)
@@ -354,7 +350,7 @@ std::vector<Throw> LightShadows::throws(const LightViews& views) const {
             }
             const std::lock_guard lock(mutex);
             if (result.size() + found.size() > result.capacity())
-                memory_.require(result.size() + found.size());
+                require_throw_memory(result.size() + found.size());
             result.insert(result.end(), found.begin(), found.end());
         });
     };
@@ -367,132 +363,88 @@ std::vector<Throw> LightShadows::throws(const LightViews& views) const {
     return result;
 }
 
-/// Where the facet's shadow lies on the face's plane, as the camera sees it, in the receiver's part
-/// of the picture.
-std::vector<ImagePoint> LightShadows::shadow(const Throw& thrown) const {
-    const Receiving& on = turned_[thrown.partly_lit];
-    const Facets::Triangle& facet = shadowed_.facets.triangles[thrown.facet];
-    // Heights, by the light's, are kept in the points' depths.
-    std::array<ImagePoint, 3> corners;
-    bool stands_up = false;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const Vec3 corner = shadowed_.facets.corners[facet.corners[i]];
-        const double height = on.plane.height(corner);
-        corners[i] = shadowed_.map.image_point(corner);
-        corners[i].depth = std::abs(height) <= on.flat ? 0 : height / on.light_height;
-        stands_up = stands_up || corners[i].depth > 0;
-    }
-    if (!stands_up)
-        return {};
-    CutPolygon polygon(corners);
-    polygon.cut([](const ImagePoint& p) { return p.depth; }, [](ImagePoint& p) { p.depth = 0; });
-    // What is as high as the light has its shadow infinitely far away.
-    constexpr double highest = 1 - 0x1p-24;
-    polygon.cut(
-        [](const ImagePoint& p) { return highest - p.depth; },
-        [](ImagePoint& p) { p.depth = highest; });
-    // In homogeneous coordinates the projection from the light to the plane is p - height light.
-    const ImagePoint light = shadowed_.map.image_point(position_);
-    for (ImagePoint& p : polygon.points())
-        p = {p.x - p.depth * light.x, p.y - p.depth * light.y, p.w - p.depth * light.w, 0};
-    const Receiver& receiver = receivers_[on.face];
-    const double left = static_cast<double>(receiver.low.x) / screen_size;
-    const double right = static_cast<double>(receiver.high.x) / screen_size;
-    const double low = 1 - static_cast<double>(receiver.high.y) / screen_size;
-    const double high = 1 - static_cast<double>(receiver.low.y) / screen_size;
-    polygon.cut(
-        [&](const ImagePoint& p) { return p.x - left * p.w; },
-        [&](ImagePoint& p) { p.x = left * p.w; });
-    polygon.cut(
-        [&](const ImagePoint& p) { return right * p.w - p.x; },
-        [&](ImagePoint& p) { p.x = right * p.w; });
-    polygon.cut(
-        [&](const ImagePoint& p) { return p.y - low * p.w; },
-        [&](ImagePoint& p) { p.y = low * p.w; });
-    polygon.cut(
-        [&](const ImagePoint& p) { return high * p.w - p.y; },
-        [&](ImagePoint& p) { p.y = high * p.w; });
-    const auto points = std::as_const(polygon).points();
-    return {points.begin(), points.end()};
-}
-
-void LightShadows::add_to_screen(
-    const Throw& thrown, std::span<const ImagePoint> shadow, VertexNumbers& numbers) {
-    const std::uint32_t face = turned_[thrown.partly_lit].face;
-    // A copy: triangles are added.
-    const ScreenTriangle on = screen_.triangles[receivers_[face].largest];
-    const NearnessSlope slope = nearness_slope(plane_of(screen_, on));
-    const auto rounded = [](double value) { return std::floor(value + 0.5); };
-    std::vector<std::uint32_t> vertices;
-    for (const ImagePoint& p : shadow) {
-        if (!(p.w > 0))
-            return;
-        const double x = std::clamp(rounded(p.x / p.w * screen_size), 0.0, 1.0 * screen_size);
-        const double y = std::clamp(rounded((1 - p.y / p.w) * screen_size), 0.0, 1.0 * screen_size);
-        const double nearness =
-            std::clamp(std::ceil(slope.at({x, y})), 0.0, static_cast<double>(depth_size));
-        vertices.push_back(numbers.number(
-            {{static_cast<std::int32_t>(x), static_cast<std::int32_t>(y)},
-             static_cast<std::int64_t>(nearness)}));
-    }
-    for (std::size_t i = 2; i < vertices.size(); ++i)
-        add_part(screen_, {vertices[0], vertices[i - 1], vertices[i]}, on, light_);
-}
-
-void LightShadows::add(const ClosedBodies& bodies, const Progress& progress, ShadowCounts& counts) {
-    StageProgress stages(progress, 4);
+ThrownShadows::Light ThrownShadows::OneLight::find(
+    const ClosedBodies& bodies,
+    std::span<const LightFrame> frames,
+    const Progress& progress,
+    ShadowCounts& counts) {
     find_turned();
-    const LightViews views = light_views(
-        shadowed_.scene,
-        shadowed_.facets,
-        facets_to_look_at(bodies),
-        position_,
-        seen_.box,
-        seen_.segments,
-        stages.next(3),
-        cancel_);
-    const Progress of_shadows = stages.next(1);
-    counts.cut_nearness = std::max(counts.cut_nearness, views.cut_nearness);
-    counts.light_step = std::max(counts.light_step, views.coarse_step);
-    keep_partly_lit(views.lit);
-    counts.partly_lit += turned_.size();
-    const std::vector<Throw> thrown = throws(views);
-    const std::size_t before = screen_.triangles.size();
-    VertexNumbers numbers(screen_.vertices);
-    constexpr std::size_t batch = 4096; // so that not all are kept twice
-    std::vector<std::vector<ImagePoint>> shadows(std::min(batch, thrown.size()));
-    const LongLoop loop(thrown.size(), of_shadows, cancel_, batch);
-    for (std::size_t first = 0; first < thrown.size(); first += batch) {
-        loop.turn(first);
-        const std::size_t count = std::min(batch, thrown.size() - first);
-        parallel_ranges(count, 256, [&](std::size_t from, std::size_t to) {
-            for (std::size_t i = from; i < to; ++i)
-                shadows[i] = shadow(thrown[first + i]);
-        });
-        for (std::size_t i = 0; i < count; ++i)
-            add_to_screen(thrown[first + i], shadows[i], numbers);
+    std::vector<Throw> thrown;
+    {
+        const LightViews views = light_views(
+            shadowed_.scene,
+            shadowed_.facets,
+            facets_to_look_at(bodies),
+            position_,
+            frames,
+            progress,
+            cancel_);
+        counts.cut_nearness = std::max(counts.cut_nearness, views.cut_nearness);
+        counts.light_step = std::max(counts.light_step, views.coarse_step);
+        keep_partly_lit(views.lit);
+        counts.partly_lit += turned_.size();
+        thrown = throws(views);
     }
-    counts.shadows += screen_.triangles.size() - before;
+    Light light;
+    light.throwing.reserve(thrown.size());
+    for (std::size_t i = 0; i < thrown.size(); ++i) {
+        if (i == 0 || thrown[i].partly_lit != thrown[i - 1].partly_lit) {
+            const Receiving& on = turned_[thrown[i].partly_lit];
+            light.faces.push_back({on.face, static_cast<std::uint32_t>(i), on.flat});
+        }
+        light.throwing.push_back(thrown[i].facet);
+    }
+    light.faces.push_back(
+        {static_cast<std::uint32_t>(receivers_.size()), static_cast<std::uint32_t>(thrown.size())});
+    return light;
 }
 
-} // namespace
+ThrownShadows::ThrownShadows(
+    const ShadowedScene& shadowed,
+    ScreenScene& screen,
+    const Progress& progress,
+    const CancelFlag* cancel)
+    : shadowed_(shadowed)
+    , receivers_(receivers_of(screen, shadowed.seen, shadowed.faces.first_facet.size()))
+    , count_on_(receivers_.size()) {
+    const std::size_t lights =
+        std::min<std::size_t>(shadowed.scene.lights.size(), most_lights_of_a_set);
+    std::vector<Vec3> positions;
+    for (std::size_t i = 0; i < lights; ++i)
+        positions.push_back(shadowed.scene.lights[i].position);
+    const std::vector<std::vector<LightFrame>> frames =
+        frames_of_lights(shadowed, screen, positions, cancel);
+    const ClosedBodies bodies = closed_bodies(shadowed.facets);
+    screen.unlit.assign(receivers_.size(), 0);
+    for (std::uint32_t i = 0; i < lights; ++i) {
+        lights_.push_back(
+            OneLight(shadowed_, receivers_, i, screen, cancel)
+                .find(bodies, frames[i], progress_part(progress, i, lights), counts_));
+        const std::vector<Lit>& faces = lights_.back().faces;
+        for (std::size_t j = 0; j + 1 < faces.size(); ++j)
+            count_on_[faces[j].face] += faces[j + 1].first - faces[j].first;
+    }
+}
+
+std::size_t ThrownShadows::count() const {
+    std::size_t count = 0;
+    for (const Light& light : lights_)
+        count += light.throwing.size();
+    return count;
+}
 
 ShadowCounts add_shadows(
     const ShadowedScene& shadowed,
     ScreenScene& screen,
     const Progress& progress,
     const CancelFlag* cancel) {
-    ShadowCounts counts;
-    const std::size_t faces = shadowed.faces.first_facet.size();
-    const std::vector<Receiver> receivers = receivers_of(screen, shadowed.seen, faces);
-    const SeenPlaces seen = seen_places(shadowed, screen, cancel);
-    const ClosedBodies bodies = closed_bodies(shadowed.facets);
-    screen.unlit.assign(faces, 0);
-    const std::size_t lights =
-        std::min<std::size_t>(shadowed.scene.lights.size(), most_lights_of_a_set);
-    for (std::uint32_t i = 0; i < lights; ++i)
-        LightShadows(shadowed, receivers, seen, i, screen, cancel)
-            .add(bodies, progress_part(progress, i, lights), counts);
+    const ThrownShadows thrown(shadowed, screen, progress, cancel);
+    std::vector<std::uint32_t> faces(thrown.face_count());
+    std::iota(faces.begin(), faces.end(), 0U);
+    const std::size_t before = screen.triangles.size();
+    thrown.add_on(faces, screen, cancel);
+    ShadowCounts counts = thrown.counts();
+    counts.shadows = screen.triangles.size() - before;
     return counts;
 }
 

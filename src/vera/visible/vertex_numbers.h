@@ -26,8 +26,13 @@ public:
     explicit VertexNumbers(std::vector<ScreenVertex>& vertices)
         : vertices_(vertices)
         , places_(std::bit_ceil(std::max<std::size_t>(512, 2 * vertices.size())), none) {
-        grow();
+        fill();
     }
+
+    static constexpr std::uint32_t none = ~std::uint32_t{0};
+
+    /// Of one that is there; none of others.
+    std::uint32_t find(const ScreenVertex& vertex) const { return places_[place_of(vertex)]; }
 
     std::uint32_t number(const ScreenVertex& vertex) {
         if (2 * vertices_.size() >= places_.size())
@@ -41,8 +46,6 @@ public:
     }
 
 private:
-    static constexpr std::uint32_t none = ~std::uint32_t{0};
-
     std::size_t place_of(const ScreenVertex& vertex) const {
         std::size_t place = hash_of(vertex) & (places_.size() - 1);
         while (places_[place] != none && vertices_[places_[place]] != vertex)
@@ -52,6 +55,10 @@ private:
 
     void grow() {
         places_.assign(2 * places_.size(), none);
+        fill();
+    }
+
+    void fill() {
         for (std::uint32_t i = 0; i < vertices_.size(); ++i)
             places_[place_of(vertices_[i])] = i;
     }

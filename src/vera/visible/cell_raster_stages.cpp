@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vera/visible/cell_raster_stages.h"
+
+#include "vera/base/long_loop.h"
+#include "vera/base/progress_part.h"
+#include "vera/visible/drawing_memory.h"
+#include "vera/visible/part_sweeps.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <mutex>
+#include <span>
+
+namespace vera {
+
+namespace {
+
+/// Whether the edge parts two parts of one shadow: beside it the same is seen. (Where several are
+/// on a side, it is followed like any other.)
+bool is_inner(const ScreenScene& scene, const EdgeNeighbours& beside) {
+    if (!beside.are_two())
+        return false;
+    const ScreenTriangle& left = scene.triangles[beside.left];
+    const ScreenTriangle& right = scene.triangles[beside.right];
+    return left.is_shadow() && left.light == right.light && left.source == right.source;
+}
+
+std::vector<std::uint32_t> shadowed_sources(const ScreenScene& scene, const ScreenEdges& edges) {
+    constexpr std::uint32_t none = several_sources - 1;
+    std::vector<std::uint32_t> sources(edges.edges.size(), none);
+    for (std::size_t i = 0; i < scene.triangles.size(); ++i)
+        for (const std::uint32_t edge : edges.of_triangle[i]) {
+            const ScreenTriangle& triangle = scene.triangles[i];
+            const std::uint32_t source = triangle.is_shadow() ? triangle.source : no_source;
+            const bool is_same = sources[edge] == none || sources[edge] == source;
+            sources[edge] = is_same ? source : several_sources;
+        }
+    return sources;
+}
+
+/// Of the triangles that have none yet.
+void add_corners(CellRaster& raster) {
+    const ScreenScene& scene = raster.scene;
+    std::size_t i = raster.corners.size();
+    raster.corners.reserve(scene.triangles.size());
+    for (; i < scene.triangles.size(); ++i) {
+        const std::array<ScreenVertex, 3> corners = corners_of(scene, scene.triangles[i]);
+        raster.corners.push_back({corners[0].point, corners[1].point, corners[2].point});
+    }
+}
+
+/// Tells of the edges from that one on, which nothing has but triangles from that one on, where
+/// they are hidden.
+void hide_edges(
+    CellRaster& raster,
+    std::size_t first_triangle,
+    std::size_t first_edge,
+    const HiddenSquares& squares,
+    const CancelFlag* cancel) {
+    const std::vector<double> nearness = nearness_of_edges(raster, first_triangle, first_edge);
+    raster.hidden_eighths.reserve(raster.edges.edges.size());
+    raster.hidden_eighths.resize(raster.edges.edges.size());
+    parallel_ranges(nearness.size(), 4096, [&](std::size_t first, std::size_t last) {
+        stop_if_raised(cancel);
+        for (std::size_t i = first; i < last; ++i)
+            raster.hidden_eighths[first_edge + i] = hidden_eighths(
+                raster, squares, raster.edges.edges[first_edge + i], nearness[i], [] {});
+    });
+}
+
+} // namespace
+
+std::vector<double>
+nearness_of_edges(const CellRaster& raster, std::size_t first_triangle, std::size_t first_edge) {
+    std::vector<double> nearness(
+        raster.edges.edges.size() - first_edge, -std::numeric_limits<double>::infinity());
+    for (std::size_t i = first_triangle; i < raster.slopes.size(); ++i)
+        for (const std::uint32_t edge : raster.edges.of_triangle[i]) {
+            const auto& [begin, end] = raster.edges.edges[edge];
+            double& near = nearness[edge - first_edge];
+            near = std::max(
+                near,
+                nearest_for_hiding(
+                    raster.slopes[i],
+                    std::array{
+                        raster.scene.vertices[begin].point, raster.scene.vertices[end].point}));
+        }
+    return nearness;
+}
+
+/// The cells along the edges.
+std::vector<std::uint8_t> cells_along(
+    const std::vector<std::uint8_t>& is_edge_asked, const CellRaster& raster, const Cells& cells) {
+    std::vector<std::uint8_t> is_asked(cells.blocked.size());
+    for (std::size_t i = 0; i < is_edge_asked.size(); ++i) {
+        if (is_edge_asked[i] == 0)
+            continue;
+        const auto& [begin, end] = raster.edges.edges[i];
+        for_each_cell_along(
+            cells,
+            raster.scene.vertices[begin].point,
+            raster.scene.vertices[end].point,
+            [&](std::size_t cell) {
+                is_asked[cell] = 1;
+                return true;
+            });
+    }
+    return is_asked;
+}
+
+CellRaster raster_of(
+    const ScreenScene& scene,
+    const AskedOfRaster& asked,
+    const Progress& progress,
+    const CancelFlag* cancel) {
+    StageProgress stages(progress_between(progress, 0, part_of_preparation), 6);
+    const auto next_stage = [&] {
+        stop_if_raised(cancel);
+        stages.next(1);
+    };
+    next_stage();
+    require_raster_memory(scene);
+    CellRaster raster = {scene, slopes_of(scene), {}, {}, {}, {}, {}, 0, {}, {}, {}};
+    add_corners(raster);
+    next_stage();
+    raster.edges = screen_edges(scene);
+    next_stage();
+    const std::vector<EdgeNeighbours> neighbours = edge_neighbours(scene, raster.edges);
+    if (std::ranges::any_of(scene.triangles, &ScreenTriangle::is_shadow)) {
+        raster.shadowed = shadowed_sources(scene, raster.edges);
+        raster.inner.resize(neighbours.size());
+        for (std::size_t i = 0; i < neighbours.size(); ++i)
+            raster.inner[i] = is_inner(scene, neighbours[i]) ? 1 : 0;
+    }
+    next_stage();
+    AskedCells asked_cells;
+    if (asked)
+        asked_cells = [&](const Cells& cells) { return asked(raster, cells); };
+    const SheetScene sheets = {scene, raster.edges, neighbours, raster.slopes};
+    raster.cells = cells_of(scene, raster.slopes, cancel, asked_cells, &sheets);
+    next_stage();
+    block_by_sheets(raster.cells, sheets, cancel);
+    raster.shadow_cells = shadow_cells_of(raster.cells, scene, raster.slopes, cancel);
+    next_stage();
+    hide_edges(raster, 0, 0, HiddenSquares(raster.cells), cancel);
+    return raster;
+}
+
+void add_shadows_to(
+    CellRaster& raster,
+    std::size_t first_triangle,
+    std::size_t first_vertex,
+    const HiddenSquares& squares,
+    const CancelFlag* cancel) {
+    const ScreenScene& scene = raster.scene;
+    const std::size_t first_edge = raster.edges.edges.size();
+    raster.slopes.reserve(scene.triangles.size());
+    for (std::size_t i = first_triangle; i < scene.triangles.size(); ++i) {
+        const bool is_as_before =
+            i > first_triangle && scene.triangles[i].plane == scene.triangles[i - 1].plane;
+        raster.slopes.push_back(
+            is_as_before ? raster.slopes.back()
+                         : nearness_slope(plane_of(scene, scene.triangles[i])));
+    }
+    add_corners(raster);
+    add_edges(scene, first_triangle, first_vertex, raster.edges);
+    raster.first_shadow_edge = first_edge;
+    raster.shadowed.assign(raster.edges.edges.size() - first_edge, no_source);
+    for (std::size_t i = first_triangle; i < scene.triangles.size(); ++i)
+        for (const std::uint32_t edge : raster.edges.of_triangle[i])
+            raster.shadowed[edge - first_edge] = scene.triangles[i].source;
+    raster.inner.clear();
+    for (const EdgeNeighbours& beside :
+         edge_neighbours(scene, raster.edges, first_triangle, first_edge))
+        raster.inner.push_back(is_inner(scene, beside) ? 1 : 0);
+    raster.shadow_cells =
+        shadow_cells_of(raster.cells, scene, raster.slopes, cancel, first_triangle);
+    hide_edges(raster, first_triangle, first_edge, squares, cancel);
+}
+
+void take_shadows_out(CellRaster& raster, std::size_t triangles, std::size_t edges) {
+    raster.slopes.resize(triangles);
+    raster.corners.resize(triangles);
+    raster.edges.of_triangle.resize(triangles);
+    raster.edges.edges.resize(edges);
+    raster.hidden_eighths.resize(edges);
+}
+
+namespace {
+
+/// Of the pieces before, those of edges from this one on.
+auto first_piece_of(const std::vector<VisiblePiece>& before, ScreenEdges::Edge edge) {
+    return std::lower_bound(
+        before.begin(),
+        before.end(),
+        edge,
+        [](const VisiblePiece& piece, const ScreenEdges::Edge& value) {
+            return piece.edge < value;
+        });
+}
+
+/// How many of the pieces before are those of the edge.
+std::size_t count_pieces_of(const std::vector<VisiblePiece>& before, ScreenEdges::Edge edge) {
+    std::size_t count = 0;
+    for (auto i = first_piece_of(before, edge); i != before.end() && i->edge == edge; ++i)
+        ++count;
+    return count;
+}
+
+/// An edge, and how many marks at equal distances lie on it where all edges are laid end to end.
+struct MarkedEdge {
+    std::uint32_t edge = 0;
+    double marks = 0;
+    double weight = 0; ///< about as many cells as it touches
+};
+
+/// One edge of 256 or so, but enough of them in any case: long ones more often, since more can
+/// cross them.
+std::vector<MarkedEdge>
+marked_edges(const CellRaster& raster, std::size_t first, std::size_t last, double& distance) {
+    constexpr double least_marks = 512;
+    constexpr double edges_per_mark = 256;
+    const double cell = std::ldexp(1.0, raster.cells.shift);
+    const auto weight_of = [&](const ScreenEdges::Edge& edge) {
+        const ScreenStep along =
+            step(raster.scene.vertices[edge.begin].point, raster.scene.vertices[edge.end].point);
+        return 1 + static_cast<double>(std::abs(along.x) + std::abs(along.y)) / cell;
+    };
+    const std::span edges = std::span(raster.edges.edges).subspan(first, last - first);
+    double whole = 0;
+    for (const ScreenEdges::Edge& edge : edges)
+        whole += weight_of(edge);
+    distance = whole / std::max(least_marks, static_cast<double>(edges.size()) / edges_per_mark);
+    std::vector<MarkedEdge> marked;
+    double next = distance / 2;
+    double end = 0;
+    for (std::uint32_t i = 0; i < edges.size(); ++i) {
+        const double weight = weight_of(edges[i]);
+        end += weight;
+        if (next >= end)
+            continue;
+        const double marks = std::floor((end - next) / distance) + 1;
+        next += marks * distance;
+        marked.push_back({static_cast<std::uint32_t>(first) + i, marks, weight});
+    }
+    return marked;
+}
+
+} // namespace
+
+ExpectedPieces expected_pieces(
+    const CellRaster& raster,
+    std::size_t first_edge,
+    std::size_t last_edge,
+    const std::vector<VisiblePiece>& before,
+    const CancelFlag* cancel) {
+    PartSweeps sweeps(raster); // of its own: what they count is not counted
+    double distance = 0;
+    const std::vector<MarkedEdge> marked = marked_edges(raster, first_edge, last_edge, distance);
+    std::vector<ExpectedPieces> found(marked.size());
+    parallel_ranges(marked.size(), 16, [&](std::size_t first, std::size_t last) {
+        stop_if_raised(cancel);
+        std::unique_ptr<PartSweep> sweep = sweeps.take();
+        for (std::size_t i = first; i < last; ++i) {
+            const std::uint32_t edge = marked[i].edge;
+            if (!raster.is_near_change.empty() && raster.is_near_change[edge] == 0) {
+                found[i].pieces =
+                    static_cast<double>(count_pieces_of(before, raster.edges.edges[edge]));
+                continue;
+            }
+            const VisiblePieces& pieces = sweep->followed(edge);
+            found[i] = {
+                static_cast<double>(pieces.pieces.size()),
+                static_cast<double>(pieces.penetrating.size())};
+        }
+        sweeps.give_back(std::move(sweep));
+    });
+    ExpectedPieces all;
+    for (std::size_t i = 0; i < marked.size(); ++i) {
+        const double edges = distance * marked[i].marks / marked[i].weight; // that it stands for
+        all.pieces += edges * found[i].pieces;
+        all.pairs += edges * found[i].pairs;
+    }
+    return all;
+}
+
+void follow_edges(
+    const CellRaster& raster,
+    std::size_t first,
+    std::size_t last,
+    const Progress& progress,
+    const CancelFlag* cancel,
+    std::vector<VisiblePieces>& parts,
+    CellCounts* counts) {
+    constexpr std::size_t part = 4096; // edges
+    const std::size_t before = parts.size();
+    parts.resize(before + (last - first + part - 1) / part);
+    PartSweeps sweeps(raster);
+    std::mutex mutex;
+    std::size_t done = before;
+    parallel_ranges(parts.size() - before, 1, [&](std::size_t from, std::size_t to) {
+        std::unique_ptr<PartSweep> sweep = sweeps.take();
+        for (std::size_t i = from; i < to; ++i)
+            parts[before + i] =
+                sweep->followed(first + i * part, std::min(last, first + (i + 1) * part), cancel);
+        sweeps.give_back(std::move(sweep));
+        const std::lock_guard lock(mutex);
+        done += to - from;
+        if (progress)
+            progress(
+                static_cast<double>(done - before) / static_cast<double>(parts.size() - before));
+    });
+    if (counts != nullptr)
+        counts->add_followed(sweeps.counts());
+}
+
+/// Which of the pieces before are those of edges that are there still, and far from the change.
+std::vector<std::uint8_t>
+kept_pieces(const CellRaster& raster, const std::vector<VisiblePiece>& before) {
+    const std::vector<ScreenEdges::Edge>& edges = raster.edges.edges;
+    std::vector<std::uint8_t> is_kept(before.size());
+    std::size_t edge = 0;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        while (edge < edges.size() && edges[edge] < before[i].edge)
+            ++edge;
+        const bool is_there = edge < edges.size() && edges[edge] == before[i].edge;
+        is_kept[i] = is_there && raster.is_near_change[edge] == 0 ? 1 : 0;
+    }
+    return is_kept;
+}
+
+void sort_pairs(std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs) {
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+}
+
+} // namespace vera
