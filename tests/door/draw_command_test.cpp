@@ -425,6 +425,34 @@ TEST(DrawCommand, ComparesTheDrawingWithRaysOnDemand) {
     EXPECT_TRUE(holds(wrong.err, "--verify takes a whole number from 0 to")) << wrong.err;
 }
 
+TEST(DrawCommand, IsRightWhereTrianglesOfOnePlaneArePassedThrough) {
+    // Of coincident ones the order goes round; and ways round faces are joined.
+    const char* const scenes[] = {
+        "PARALLEL 0 0 -1  -2.5 -2.5 4  2.5 -2.5 4  -2.5 2.5 4\n"
+        "P3 -0.565 -3 0.5  -0.565 3 0.5  -0.465 3 1.5\n"
+        "P3 -3 0.92 1  3 1.92 1  3 1.02 1\n"
+        "P3 -0.815 -3 1  0.185 3 1  -0.715 3 1\n"
+        "P3 2 0 1  1 2 1  -2 1 1\n"
+        "P3 -1.2 0.4 1.1  -1.2 1.2 0.9  -2 1.2 1\n"
+        "P3 -1.2 0.4 1.1  -0.4 1.2 1  -1.2 1.2 0.9\n",
+        "PROJECTION 0 0 8  -2.5 -2.5 4  2.5 -2.5 4  -2.5 2.5 4\n"
+        "P3 3 1 1  -2 0 1  0 -1 1\n"
+        "P3 3 1 1.1  0 -1 0.9  -1 1 1\n"
+        "P3 1 0 1.1  0 3 0  -2 3 0\n"
+        "P3 -1 3 1  0 -3 1  3 1 1\n"};
+    const ScratchFolder folder;
+    for (const char* scene : scenes)
+        for (const char* engine : {"cells", "sweep"}) {
+            folder.write("a.vera", scene);
+            const ProgramRun run = run_vera(
+                folder,
+                std::string("draw a.vera --style ids --raster 300x300 --verify=200000 -o a.svg "
+                            "--engine ")
+                    + engine);
+            EXPECT_EQ(run.exit_code, 0) << engine << run.err;
+        }
+}
+
 TEST(DrawCommand, GivesUpAfterTheTimeLimitAndLeavesNoFile) {
     const ScratchFolder folder;
     std::string text = view;

@@ -546,6 +546,34 @@ TEST(VisibleMap, JoinsWhatIsNearestWhereSurfacesPartAlongNearlyTheSameLine) {
     expect_like_brute_force_after_cutting(tangle(2434, 16), 1, 3000, "tangle");
 }
 
+/// A tangle with corners on few crossings and depths of a few values, so that some of it lies in
+/// one plane, in front of a sheet that fills the picture, cut where it passes through itself.
+ScreenScene cut_before_a_sheet(std::uint64_t seed) {
+    ScreenScene scene = tangle(seed, 4 + seed % 20, 6);
+    for (ScreenVertex& vertex : scene.vertices)
+        vertex.nearness = depth_size / 4 + (vertex.nearness * 3 / depth_size) * (depth_size / 8);
+    const auto first = static_cast<std::uint32_t>(scene.vertices.size());
+    for (const ScreenPoint corner :
+         {ScreenPoint{0, 0}, {screen_size, 0}, {screen_size, screen_size}, {0, screen_size}})
+        scene.vertices.push_back({corner, 0});
+    add_triangle(scene, {first, first + 1, first + 2}, 1000);
+    add_triangle(scene, {first, first + 2, first + 3}, 1000);
+    return scene;
+}
+
+TEST(VisibleMap, HasTheAreaOfThePictureAlsoWhereWaysAreJoined) {
+    std::size_t joined = 0;
+    for (std::uint64_t seed = 1200; seed < 1400; ++seed) {
+        ScreenScene scene = cut_before_a_sheet(seed);
+        const WholePieces whole = whole_pieces(scene, {}, nullptr, VisibilityEngine::cells, {});
+        const VisibleMap map = visible_map(scene, whole.pieces);
+        joined += map.joined_sides.size();
+        // What three surfaces leave between them is a few steps wide.
+        EXPECT_NEAR(area_of(map), std::ldexp(1.0, 2 * screen_bits), 64.0 * screen_size) << seed;
+    }
+    EXPECT_GT(joined, 100U);
+}
+
 TEST(VisibleMap, TellsWhatPenetrates) {
     ScreenScene scene;
     scene.vertices = {

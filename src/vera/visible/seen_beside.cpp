@@ -49,8 +49,11 @@ bool SeenBeside::has_one_sided(const Front& front) const {
 /// In an order that is no matter of how they were found: of what is coincident within rounding, a
 /// may be before b, b before c and c before a.
 void SeenBeside::put_in_order(Front& front) const {
-    std::sort(front.begin(), front.end(), [](const InFront& a, const InFront& b) {
-        return a.on_line.triangle < b.on_line.triangle;
+    const auto key = [&](const InFront& one) {
+        return std::pair(scene_.triangles[one.on_line.triangle].source, one.on_line.triangle);
+    };
+    std::sort(front.begin(), front.end(), [&](const InFront& a, const InFront& b) {
+        return key(a) < key(b);
     });
     for (auto& [candidate, on_line] : front)
         on_line.chord =

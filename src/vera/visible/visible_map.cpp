@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <numeric>
 #include <span>
+#include <tuple>
 #include <utility>
 
 namespace vera {
@@ -84,55 +85,147 @@ Loose joined(std::span<const Loose> parts) {
     return all;
 }
 
-/// Joins each end to the nearest beginning of its region that is left. Those whose nearest is the
-/// nearest come first: none takes the one that belongs to another.
-void join(
-    Loose loose,
-    const Ways& ways,
-    const CancelFlag* cancel,
-    std::vector<std::uint32_t>& following,
-    VisibleMap& map) {
-    const auto by_region = [&](std::uint32_t a, std::uint32_t b) {
-        return ways.region[a] != ways.region[b] ? ways.region[a] < ways.region[b] : a < b;
+/// Joins loose ways by straight ones.
+class Joining {
+public:
+    Joining(
+        const Ways& ways,
+        const CancelFlag* cancel,
+        std::vector<std::uint32_t>& following,
+        VisibleMap& map)
+        : ways_(ways)
+        , cancel_(cancel)
+        , following_(following)
+        , map_(map) {}
+
+    /// Borders between two regions of which no piece was found come first: such a one leads from a
+    /// place where the one region ends and the other begins to one where it is the other way round,
+    /// and both get the same straight way. What is left, at places where three regions or more meet
+    /// so, is joined region by region.
+    void join(const Loose& loose) { join_each_region(join_borders(loose)); }
+
+private:
+    /// A place where `low` and `high` are the regions that end and begin, the smaller number first.
+    struct Break {
+        std::uint32_t low = 0;
+        std::uint32_t high = 0;
+        std::uint32_t number = 0; ///< in Loose
     };
-    std::sort(loose.ends.begin(), loose.ends.end(), by_region);
-    std::sort(loose.begins.begin(), loose.begins.end(), by_region);
-    // As many of each region end as begin.
-    for (std::size_t first = 0, last = 0; first < loose.ends.size(); first = last) {
-        const std::uint32_t region = ways.region[loose.ends[first]];
-        while (last < loose.ends.size() && ways.region[loose.ends[last]] == region)
-            ++last;
-        std::vector<std::uint32_t> begins(
-            loose.begins.begin() + static_cast<std::ptrdiff_t>(first),
-            loose.begins.begin() + static_cast<std::ptrdiff_t>(last));
-        const auto distance = [&](std::uint32_t end, std::uint32_t begin) {
-            const RationalPoint& from = map.vertices[ways.to(end)];
-            const RationalPoint& to = map.vertices[ways.from(begin)];
-            const double x = to.x() - from.x();
-            const double y = to.y() - from.y();
-            return std::sqrt(x * x + y * y);
+
+    Loose join_borders(const Loose& loose) {
+        std::vector<Break> breaks;
+        for (std::uint32_t i = 0; i < loose.ends.size(); ++i) {
+            const auto [low, high] = std::minmax({region(loose.ends[i]), region(loose.begins[i])});
+            breaks.push_back({low, high, i});
+        }
+        const auto key = [](const Break& one) { return std::tuple(one.low, one.high, one.number); };
+        std::sort(breaks.begin(), breaks.end(), [&](const Break& a, const Break& b) {
+            return key(a) < key(b);
+        });
+        std::vector<bool> is_joined(breaks.size());
+        for (std::size_t first = 0, last = 0; first < breaks.size(); first = last) {
+            const Break& one = breaks[first];
+            std::vector<std::uint32_t> low_ends;
+            std::vector<std::uint32_t> high_ends;
+            for (; last < breaks.size() && breaks[last].low == one.low
+                 && breaks[last].high == one.high;
+                 ++last) {
+                const std::uint32_t i = breaks[last].number;
+                (region(loose.ends[i]) == one.low ? low_ends : high_ends).push_back(i);
+            }
+            const auto distance = [&](std::uint32_t a, std::uint32_t b) {
+                return distance_of(loose.ends[a], loose.begins[b]);
+            };
+            pair_nearest(low_ends, high_ends, distance, [&](std::uint32_t a, std::uint32_t b) {
+                follow(loose.ends[a], loose.begins[b]);
+                follow(loose.ends[b], loose.begins[a]);
+                is_joined[a] = is_joined[b] = true;
+            });
+        }
+        Loose left;
+        for (std::size_t i = 0; i < loose.ends.size(); ++i)
+            if (!is_joined[i])
+                left.add(loose.ends[i], loose.begins[i]);
+        return left;
+    }
+
+    void join_each_region(Loose loose) {
+        const auto by_region = [&](std::uint32_t a, std::uint32_t b) {
+            return region(a) != region(b) ? region(a) < region(b) : a < b;
         };
+        std::sort(loose.ends.begin(), loose.ends.end(), by_region);
+        std::sort(loose.begins.begin(), loose.begins.end(), by_region);
+        // As many of each region end as begin.
+        const auto begins_at = [&](std::size_t i) {
+            return loose.begins.begin() + static_cast<std::ptrdiff_t>(i);
+        };
+        const auto ends_at = [&](std::size_t i) {
+            return loose.ends.begin() + static_cast<std::ptrdiff_t>(i);
+        };
+        for (std::size_t first = 0, last = 0; first < loose.ends.size(); first = last) {
+            while (last < loose.ends.size()
+                   && region(loose.ends[last]) == region(loose.ends[first]))
+                ++last;
+            pair_nearest(
+                {ends_at(first), ends_at(last)},
+                {begins_at(first), begins_at(last)},
+                [&](std::uint32_t end, std::uint32_t begin) { return distance_of(end, begin); },
+                [&](std::uint32_t end, std::uint32_t begin) { follow(end, begin); });
+        }
+    }
+
+    /// Pairs each end with the nearest beginning that is left, as long as there is one. Those whose
+    /// nearest is the nearest come first: none takes the one that belongs to another.
+    template <typename Distance, typename Visit>
+    void pair_nearest(
+        const std::vector<std::uint32_t>& ends,
+        std::vector<std::uint32_t> begins,
+        const Distance& distance,
+        const Visit& visit) const {
+        if (begins.empty())
+            return;
         const auto nearest = [&](std::uint32_t end) {
             return std::min_element(
                 begins.begin(), begins.end(), [&](std::uint32_t a, std::uint32_t b) {
                     return distance(end, a) < distance(end, b);
                 });
         };
-        std::vector<std::pair<double, std::uint32_t>> ends;
-        for (std::size_t i = first; i < last; ++i) {
-            stop_if_raised(cancel);
-            ends.emplace_back(distance(loose.ends[i], *nearest(loose.ends[i])), loose.ends[i]);
+        std::vector<std::pair<double, std::uint32_t>> in_turn;
+        for (const std::uint32_t end : ends) {
+            stop_if_raised(cancel_);
+            in_turn.emplace_back(distance(end, *nearest(end)), end);
         }
-        std::sort(ends.begin(), ends.end());
-        for (const auto& [_, end] : ends) {
-            stop_if_raised(cancel);
+        std::sort(in_turn.begin(), in_turn.end());
+        for (const auto& [_, end] : in_turn) {
+            stop_if_raised(cancel_);
+            if (begins.empty())
+                return;
             const auto begin = nearest(end);
-            ++map.joined;
-            following[end] = *begin;
+            visit(end, *begin);
             begins.erase(begin);
         }
     }
-}
+
+    std::uint32_t region(std::uint32_t way) const { return ways_.region[way]; }
+
+    double distance_of(std::uint32_t end, std::uint32_t begin) const {
+        const RationalPoint& from = map_.vertices[ways_.to(end)];
+        const RationalPoint& to = map_.vertices[ways_.from(begin)];
+        const double x = to.x() - from.x();
+        const double y = to.y() - from.y();
+        return std::sqrt(x * x + y * y);
+    }
+
+    void follow(std::uint32_t end, std::uint32_t begin) {
+        ++map_.joined;
+        following_[end] = begin;
+    }
+
+    const Ways& ways_;
+    const CancelFlag* cancel_;
+    std::vector<std::uint32_t>& following_;
+    VisibleMap& map_;
+};
 
 /// Of each way the one that follows on the same region's border: at its end the first to the right
 /// of the way back.
@@ -158,7 +251,7 @@ following(const Ways& ways, const Progress& progress, const CancelFlag* cancel, 
             }
         }
     });
-    join(joined(loose), ways, cancel, result, map);
+    Joining(ways, cancel, result, map).join(joined(loose));
     return result;
 }
 
