@@ -209,7 +209,10 @@ LitWall lit_wall(std::mt19937& random) {
         triangle.corners[1] - triangle.corners[0], triangle.corners[2] - triangle.corners[0]));
     for (int i = 0; i < 2; ++i) {
         PointLight light;
-        light.position = at + in(0.3, 4) * (random() % 2 == 0 ? normal : -normal);
+        // One after the other: which argument a compiler takes first is its own choice.
+        const bool is_before = random() % 2 == 0;
+        const double away = in(0.3, 4);
+        light.position = at + away * (is_before ? normal : -normal);
         light.intensity = 6;
         light.color = {1, in(0.5, 1), in(0.5, 1)};
         wall.scene.lights.push_back(light);
