@@ -82,6 +82,16 @@ private:
     std::size_t shadows_ = 0;
 };
 
+/// How many shadows may be there at a time: several times as many as fall on one face, or those of
+/// one that most edges are beside, as a floor's, would be made again for almost each.
+std::size_t most_at_a_time(const ThrownShadows& thrown, std::size_t wanted) {
+    constexpr std::size_t faces = 4;
+    std::size_t most = wanted;
+    for (std::uint32_t face = 0; face < thrown.face_count(); ++face)
+        most = std::max(most, faces * thrown.count_on(face));
+    return most;
+}
+
 /// Vertices of shadows between which pieces lie, light by light of one part of the faces after the
 /// other.
 struct KeptVertices {
@@ -107,7 +117,7 @@ public:
         , sees_others_(!before.penetrating.empty())
         , most_(
               sees_others_ ? std::numeric_limits<std::size_t>::max()
-                           : std::max(at_a_time, triangles_ / 8))
+                           : most_at_a_time(thrown, std::max(at_a_time, triangles_ / 8)))
         , raster_(raster_of(
               screen,
               [&](CellRaster& raster, const Cells& cells) { return asked_cells(raster, cells); },
