@@ -150,5 +150,58 @@ TEST(ShadowedRaster, SeesTheSameWhereThingsStandOnEachOther) {
     EXPECT_GT(shadows, 500U);
 }
 
+/// Strips that cross each other, each seen in many parts, below small triangles all over them.
+Scene strips_below_leaves() {
+    std::mt19937_64 random(11);
+    const auto between = [&](double least, double most) {
+        return least + (most - least) * static_cast<double>(random() % 1024) / 1024;
+    };
+    Scene scene;
+    for (int i = 0; i < 48; ++i) {
+        const double at = between(-1, 1);
+        const double z = 0.01 * i;
+        if (i % 2 == 0)
+            test::add_polygon(
+                scene.geometry, {{at, -1, z}, {at + 0.03, -1, z}, {at + 0.03, 1, z}, {at, 1, z}});
+        else
+            test::add_polygon(
+                scene.geometry, {{-1, at, z}, {1, at, z}, {1, at + 0.03, z}, {-1, at + 0.03, z}});
+    }
+    for (int i = 0; i < 400; ++i) {
+        const double x = between(-1, 1);
+        const double y = between(-1, 1);
+        const double z = between(0.6, 0.8);
+        test::add_polygon(scene.geometry, {{x, y, z}, {x + 0.02, y, z}, {x, y + 0.02, z + 0.01}});
+    }
+    scene.lights = {{.position = {2, 1, 4}}};
+    number_primitives(scene);
+    return scene;
+}
+
+TEST(ShadowedRaster, MakesShadowsAFewTimesWhereFacesAreSeenBetweenEachOther) {
+    const Scene scene = strips_below_leaves();
+    Camera camera;
+    camera.viewpoint = {0, 0, 6};
+    camera.lower_left = {-1, -1, 0};
+    camera.lower_right = {1, -1, 0};
+    camera.upper_left = {-1, 1, 0};
+    const CameraMap map(camera);
+    const Facets all = facets(scene, [](Vec3) { return 0.05; });
+    const DrawnFaces faces = drawn_faces(scene, all, FaceUnit::plane, camera);
+    ScreenScene screen = screen_scene(all, map, faces.of_facet);
+    sort_by_place(screen);
+    const WholePieces whole = whole_pieces(screen);
+    const ShadowedScene shadowed = {scene, all, faces, camera, map, 512, 512, whole.pieces};
+    const ThrownShadows thrown(shadowed, screen);
+    const auto made = [&](std::size_t at_a_time) {
+        ScreenScene in_parts = screen;
+        return shadowed_cell_raster(in_parts, whole.pieces, thrown, {}, nullptr, {}, at_a_time)
+            .made;
+    };
+    EXPECT_GT(thrown.count(), 1000U);
+    EXPECT_LE(made(~std::size_t{0}), thrown.count());
+    EXPECT_LE(made(1), 8 * thrown.count());
+}
+
 } // namespace
 } // namespace vera

@@ -45,12 +45,15 @@ private:
     std::size_t next_ = 0;
 };
 
-/// The faces of which the shadows are there at a time.
+/// The faces of which the shadows are there at a time. Where the same ones come back again and
+/// again, as where large faces are seen between each other all over the picture, four times as many
+/// may be there from then on, and so on: else shadows would be made for every few edges anew.
 class FaceBatch {
 public:
     FaceBatch(const ThrownShadows& thrown, std::size_t most)
         : thrown_(thrown)
         , most_(most)
+        , most_made_(often * thrown.count())
         , is_in_(thrown.face_count()) {}
 
     void add(std::uint32_t face) {
@@ -69,17 +72,31 @@ public:
     std::vector<std::uint32_t> take() {
         for (const std::uint32_t face : faces_)
             is_in_[face] = 0;
+        made_ += shadows_;
+        made_with_most_ += shadows_;
         shadows_ = 0;
+        if (made_with_most_ > most_made_) {
+            most_ *= 4;
+            made_with_most_ = 0;
+        }
         std::sort(faces_.begin(), faces_.end());
         return std::exchange(faces_, {});
     }
 
+    /// Shadows of all that were taken, as often as they were.
+    std::size_t made() const { return made_; }
+
 private:
+    static constexpr std::size_t often = 2; ///< so often may all be made before more are at a time
+
     const ThrownShadows& thrown_;
     std::size_t most_;
+    std::size_t most_made_;
     std::vector<std::uint8_t> is_in_;
     std::vector<std::uint32_t> faces_;
     std::size_t shadows_ = 0;
+    std::size_t made_ = 0;
+    std::size_t made_with_most_ = 0; ///< as large as it is now
 };
 
 /// How many shadows may be there at a time: several times as many as fall on one face, or those of
@@ -144,6 +161,8 @@ public:
 
     std::size_t shadows() const { return shadows_; }
 
+    std::size_t made() const { return made_; }
+
 private:
     std::vector<std::uint8_t> asked_cells(const CellRaster& raster, const Cells& cells);
     void take_out();
@@ -171,6 +190,7 @@ private:
     std::size_t edges_; ///< of surfaces
     KeptVertices kept_;
     std::size_t shadows_ = 0;
+    std::size_t made_ = 0; ///< beside the surfaces' edges
 };
 
 /// Those along the edges beside which there may be a shadow, and those of the surfaces that have
@@ -261,6 +281,7 @@ VisiblePieces ShadowedRaster::follow_surfaces(VisiblePieces before, const Progre
             first = edge + 1;
         }
         take_out();
+        made_ = batch.made();
     }
     keep_pieces(kept_pieces(raster_, before.pieces), before);
     free_room(raster_.is_near_change);
@@ -433,6 +454,7 @@ ShadowedPieces shadowed_cell_raster(
         parts = raster.follow_shadows(progress_between(progress, 0.6, 1));
         kept = raster.take_kept();
         result.shadows = raster.shadows();
+        result.made = raster.made();
     }
     VisiblePieces of_shadows = joined(std::move(parts));
     renumber_edges(vertices, add_vertices(kept, screen), of_shadows);

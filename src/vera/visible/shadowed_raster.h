@@ -19,16 +19,19 @@ namespace vera {
 /// surface: `before` tells it, the pieces of the same screen without shadows. Beside an edge of a
 /// shadow only those on the same face do. So the surfaces' edges are followed first, along the
 /// curve by which they are sorted, and then the shadows' face by face. Each shadow is made about
-/// twice.
+/// twice; where faces are seen between each other all over the picture a few times, with more of
+/// them at a time.
 struct ShadowedPieces {
     VisiblePieces pieces;
     std::size_t shadows = 0; ///< triangles that were made of what was thrown
+    std::size_t made = 0;    ///< of what was thrown, what was made beside surfaces' edges, with
+                             ///< what was made again
 };
 
 /// The screen gets the vertices between which pieces of shadows' borders lie, and keeps its
 /// triangles. Throws Cancelled, and std::runtime_error where the memory that is available would not
-/// suffice. So many shadows may be there at a time, or those of an eighth as many triangles as the
-/// screen has: the pieces do not depend on it.
+/// suffice. So many shadows may be there at a time at first, or those of an eighth as many
+/// triangles as the screen has: the pieces do not depend on it.
 ShadowedPieces shadowed_cell_raster(
     ScreenScene& screen,
     VisiblePieces before,
