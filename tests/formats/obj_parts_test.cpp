@@ -204,6 +204,34 @@ TEST(ObjParts, SayWhatIsMissing) {
     }
 }
 
+TEST(ObjParts, AreReadBehindAMarkOfTheEncoding) {
+    const Folder folder;
+    folder.file("m.mtl", "\xef\xbb\xbfnewmtl red\r\nKd 1 0 0\r\n");
+    const auto path = folder.file(
+        "a.obj", "\xef\xbb\xbfv 0 0 0\nv 1 0 0\nv 0 1 0\nmtllib m.mtl\nusemtl red\nf 1 2 3\n");
+    const SceneFile file = read_scene(path, {});
+    EXPECT_TRUE(file.warnings.empty()) << printed(file.warnings);
+    EXPECT_EQ(file.scene.geometry.meshes.front().positions.size(), 3U);
+    ASSERT_EQ(file.scene.materials.size(), 1U);
+    EXPECT_EQ(file.scene.materials[0].drf, (Color{1, 0, 0}));
+}
+
+TEST(ObjParts, NameFilesThatAreNone) {
+    const Folder folder;
+    folder.file("m.mtl", "newmtl red\n");
+    const auto said_of = [&](const std::string& names) {
+        return printed(
+            read_scene(
+                folder.file("a.obj", "mtllib " + names + "\n" + square + "usemtl red\nf 1 2 3\n"),
+                {})
+                .warnings);
+    };
+    EXPECT_EQ(said_of("m.mtl # and no other"), "");
+    EXPECT_THAT(said_of("."), HasSubstr("'.' is not a file: its materials have default colours"));
+    EXPECT_THAT(
+        said_of("M.mtl"), HasSubstr("there is no file 'M.mtl' (did you mean 'm.mtl'?): its"));
+}
+
 TEST(ObjParts, AreAtMostSoMany) {
     std::string text = square;
     for (std::size_t i = 0; i <= most_material_runs; ++i)

@@ -46,6 +46,7 @@ TEST(ReadStl, ReadsAsciiAndSharesEqualCorners) {
         mesh.positions, ElementsAre(Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{1, 1, 0}, Vec3{0, 1, 0}));
     EXPECT_THAT(mesh.position_indices, ElementsAre(0, 1, 2, 0, 2, 3));
     EXPECT_EQ(said_of(read_stl, "solid\n" + two_facets + "endsolid"), "");
+    EXPECT_EQ(said_of(read_stl, "\xef\xbb\xbfsolid\n" + two_facets + "endsolid"), "");
 }
 
 TEST(ReadStl, ReadsAsciiInCapitalsWithSeveralSolidsAndBadNormals) {

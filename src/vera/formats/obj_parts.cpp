@@ -98,16 +98,25 @@ private:
         return static_cast<std::size_t>(part.data() - source_.text().data());
     }
 
-    /// The line is the name of one file, blanks and all, or the names of several.
+    /// The line is the name of one file, blanks and all, or the names of several and a comment.
     void read_libraries(std::string_view names) {
         if (is_file(folder_ / names) || names.find_first_of(" \t") == std::string_view::npos)
             return read_library(names);
-        while (!names.empty()) {
+        while (!names.empty() && names.front() != '#') {
             const std::size_t end = std::min(names.find_first_of(" \t"), names.size());
             if (end > 0)
                 read_library(names.substr(0, end));
             names.remove_prefix(std::min(end + 1, names.size()));
         }
+    }
+
+    static std::string problem_of(std::string_view name, const std::filesystem::path& path) {
+        std::error_code error;
+        if (std::filesystem::exists(path, error))
+            return fmt::format("{} is not a file", shown(name));
+        const std::string similar = similar_file(path, " (");
+        return fmt::format(
+            "there is no file {}{}{}", shown(name), similar, similar.empty() ? "" : ")");
     }
 
     void read_library(std::string_view name) {
@@ -121,10 +130,7 @@ private:
             if (missing_.count <= most_told)
                 warn(
                     offset_of(name),
-                    fmt::format(
-                        "there is no file {}{}: its materials have default colours",
-                        shown(name),
-                        similar_file(path, "; ")),
+                    fmt::format("{}: its materials have default colours", problem_of(name, path)),
                     "put it into the folder of the OBJ file");
             return;
         }

@@ -38,7 +38,8 @@ bool is_keyword(std::string_view word, std::string_view keyword) {
 /// Many a program writes binary files that begin with "solid": their size tells, and if the file is
 /// cut short, that they hold what no text does.
 bool is_binary(std::string_view text) {
-    const std::size_t start = std::min(text.find_first_not_of(" \t\r\n"), text.size());
+    const std::size_t start =
+        std::min(text.find_first_not_of(" \t\r\n", encoding_mark_length(text)), text.size());
     if (!is_keyword(text.substr(start, 5), "solid"))
         return true;
     if (text.size() >= triangles_begin) {

@@ -13,8 +13,13 @@
 
 namespace vera {
 
+/// How long the mark of its encoding is that some editors begin a text with: 0 where there is none.
+inline std::size_t encoding_mark_length(std::string_view text) {
+    return text.starts_with("\xef\xbb\xbf") ? 3 : 0;
+}
+
 /// Goes through the text of a mesh or NFF file, word by word and line by line. Words stand between
-/// blanks; a carriage return is a blank.
+/// blanks; a carriage return is a blank. A mark of the encoding at the beginning is passed over.
 class TextCursor {
 public:
     /// What ends a search for the next word.
@@ -30,7 +35,10 @@ public:
         , lines_(lines)
         , begin_(report.source().text().data())
         , at_(begin_ + offset)
-        , end_(begin_ + report.source().text().size()) {}
+        , end_(begin_ + report.source().text().size()) {
+        if (offset == 0)
+            at_ += encoding_mark_length(report.source().text());
+    }
 
     bool at_end() const { return at_ == end_; }
 
