@@ -68,16 +68,23 @@ std::vector<Border> borders_of(const ScreenScene& screen, const VisiblePieces& l
     return borders;
 }
 
+/// Whether triangles that pass through each other are cut before.
+enum class Penetrating { cut, left };
+
 /// How many shadows there were.
-std::size_t
-expect_same_in_parts(const Scene& scene, const Camera& camera, const std::string& what) {
+std::size_t expect_same_in_parts(
+    const Scene& scene,
+    const Camera& camera,
+    const std::string& what,
+    Penetrating penetrating = Penetrating::cut) {
     const CameraMap map(camera);
     const Facets all = facets(scene, [](Vec3) { return 0.05; });
     const DrawnFaces faces = drawn_faces(scene, all, FaceUnit::plane, camera);
     ScreenScene screen = screen_scene(all, map, faces.of_facet);
     sort_by_place(screen);
-    const WholePieces whole = whole_pieces(screen);
-    const ShadowedScene shadowed = {scene, all, faces, camera, map, 512, 512, whole.pieces};
+    const VisiblePieces before =
+        penetrating == Penetrating::cut ? whole_pieces(screen).pieces : cell_raster(screen);
+    const ShadowedScene shadowed = {scene, all, faces, camera, map, 512, 512, before};
 
     ScreenScene with_all = screen;
     const std::size_t shadows = add_shadows(shadowed, with_all).shadows;
@@ -87,7 +94,7 @@ expect_same_in_parts(const Scene& scene, const Camera& camera, const std::string
         ScreenScene in_parts = screen;
         const ThrownShadows thrown(shadowed, in_parts);
         const ShadowedPieces found =
-            shadowed_cell_raster(in_parts, whole.pieces, thrown, {}, nullptr, {}, at_a_time);
+            shadowed_cell_raster(in_parts, before, thrown, {}, nullptr, {}, at_a_time);
         EXPECT_EQ(found.shadows, shadows) << what;
         EXPECT_EQ(in_parts.triangles.size(), triangles) << what;
         EXPECT_TRUE(borders_of(in_parts, found.pieces) == expected)
@@ -105,6 +112,15 @@ TEST(ShadowedRaster, SeesInPartsWhatIsSeenWithAllShadows) {
             testing::camera_number(static_cast<int>(seed)),
             "seed " + std::to_string(seed));
     EXPECT_GT(shadows, 500U);
+}
+
+TEST(ShadowedRaster, SeesTheSameWhereTrianglesPassThroughEachOther) {
+    for (std::uint64_t seed = 0; seed < 8 && !HasFailure(); ++seed)
+        expect_same_in_parts(
+            testing::scene_of_planes(seed),
+            testing::camera_number(static_cast<int>(seed)),
+            "seed " + std::to_string(seed),
+            Penetrating::left);
 }
 
 /// Squares of a board, and walls, floors and steps on it whose corners share a few places: shadows

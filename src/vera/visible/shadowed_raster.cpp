@@ -194,10 +194,10 @@ private:
 };
 
 /// Those along the edges beside which there may be a shadow, and those of the surfaces that have
-/// some.
+/// some. Where others are seen than the pieces tell, there may be one beside each edge.
 std::vector<std::uint8_t>
 ShadowedRaster::asked_cells(const CellRaster& raster, const Cells& cells) {
-    is_asked_.assign(raster.edges.edges.size(), 0);
+    is_asked_.assign(raster.edges.edges.size(), sees_others_ ? 1 : 0);
     SeenBefore seen(screen_, before_);
     for (std::size_t i = 0; i < is_asked_.size(); ++i)
         seen.for_each_beside(raster.edges.edges[i], [&](std::uint32_t source) {
