@@ -88,6 +88,39 @@ TEST(DrawnSeams, OfAHairDoNotComeOutOnItsOtherSide) {
     EXPECT_FALSE(goes_below(drawing, 1, -0.4));
 }
 
+/// So many leaves of a pixel or two before a floor of which as many crumbs are in their shadow.
+std::size_t corners_of_leaves_and_shadows(int leaves) {
+    std::mt19937 random(4);
+    const auto between = [&](double least, double most) {
+        return least + (most - least) * static_cast<double>(random() % 4096) / 4096;
+    };
+    Scene scene;
+    Material material;
+    material.drf = {0.8, 0.8, 0.8};
+    scene.materials.push_back(material);
+    for (int i = 0; i < leaves; ++i) {
+        const double x = between(-2.5, 2.5);
+        const double y = between(-2.5, 2.5);
+        const double z = between(0.5, 1);
+        add_polygon(scene.geometry, {{x, y, z}, {x + 0.03, y, z}, {x, y + 0.03, z + 0.01}});
+    }
+    add_polygon(scene.geometry, {{-3, -3, 0}, {3, -3, 0}, {3, 3, 0}, {-3, 3, 0}});
+    for (Item& item : scene.geometry.items)
+        item.material = MaterialId{0};
+    scene.lights = {{.position = {4, 3, 8}}};
+    number_primitives(scene);
+    const Drawing drawing = draw_scene(scene, camera_from_the_front(), {}, {}).drawing;
+    std::size_t corners = 0;
+    for (const FilledOutline& fill : drawing.fills)
+        for (const auto& ring : testing::flattened_rings(fill))
+            corners += ring.size();
+    return corners;
+}
+
+TEST(DrawnSeams, OfLeavesBeforeTheirShadowsDoNotHoldAllShadowsEach) {
+    EXPECT_LT(corners_of_leaves_and_shadows(1600), 3 * corners_of_leaves_and_shadows(800));
+}
+
 /// The inner half of a ring, which is convex nowhere, of quarter circles about the axis.
 RotationalShape inner_half_of_ring(Vec3 axis, double radius, double r) {
     RotationalShape shape;

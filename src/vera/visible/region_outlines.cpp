@@ -15,10 +15,9 @@ RegionOutlines::RegionOutlines(const VisibleMap& map, DrawnBorders borders)
 }
 
 std::size_t RegionOutlines::corner_count(std::size_t region) const {
-    std::size_t count = 0;
-    for (const VisibleMap::Ring& ring : rings(region))
-        count += ring.count;
-    return count;
+    const VisibleMap::Ring& first = map_.rings[starts_[region]];
+    const VisibleMap::Ring& last = map_.rings[starts_[region + 1] - 1];
+    return last.first + last.count - first.first; // one ring's behind the other's
 }
 
 std::vector<BorderRing> RegionOutlines::borders(std::size_t region) const {

@@ -15,7 +15,9 @@ namespace vera {
 
 namespace {
 
-constexpr std::size_t most_corners = 1024; // of a neighbour: else strips take too long
+/// Of a neighbour: else strips take too long, and what goes on below the whole of a floor in the
+/// shadow of many leaves, at each of these, takes far more than all that is drawn.
+constexpr std::size_t most_corners = 1024;
 
 /// Calls visit(border, what is seen across) for each part of the region's rings beyond which one
 /// that is painted later lies: consecutive points.
@@ -72,7 +74,8 @@ bool can_have_strips(const RegionOutlines& regions, std::uint32_t across) {
 bool is_small(const RegionOutlines& regions, std::span<const float> widths, std::uint32_t across) {
     constexpr std::size_t few = 16;
     constexpr float narrow = 2; // pixels: where strips of one come near the other side
-    return regions.corner_count(across) <= few || widths[across] < narrow;
+    return regions.corner_count(across) <= few
+        || (widths[across] < narrow && can_have_strips(regions, across));
 }
 
 /// Whether a seam's line along the border of one that is not small stays within the region.
@@ -129,7 +132,7 @@ void cover_seams(
                 region.outline.seams.emplace_back(border.begin(), border.end());
             else
                 go_on_closely(regions, border, across, region);
-        } else if (!are_alike(colors[number], colors[across]) && can_have_strips(regions, across)) {
+        } else if (!are_alike(colors[number], colors[across])) {
             go_on_closely(regions, border, across, region);
         } else if (std::find(below.begin(), below.end(), across) == below.end()) {
             below.push_back(across);

@@ -24,9 +24,9 @@ std::vector<float> widths_of_regions(
 /// Lets the region of that number, painted, which has its rings, go on below those beside it that
 /// are painted later: below the whole of those that are small, or so narrow that a strip below
 /// their border would come out beyond them, which moves no silhouette, or, where that would mix
-/// another colour into what lies beyond them, close to the common border; below the others as a
-/// seam, but for a region so narrow that the line would come out on its own other side. The widths
-/// and colours are those of all regions.
+/// another colour into what lies beyond them, close to the common border; below the others, and
+/// those of very many corners, as a seam, but for a region so narrow that the line would come out
+/// on its own other side. The widths and colours are those of all regions.
 void cover_seams(
     const RegionOutlines& regions,
     std::span<const float> widths,
