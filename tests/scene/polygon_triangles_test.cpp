@@ -194,6 +194,25 @@ TEST(SplitPolygon, TakesTenThousandCornersInItsStride) {
     EXPECT_NE(split(corners).kind, OutlineKind::tangled);
 }
 
+/// All corners between the teeth lie on one line, and what is left below them becomes a fan.
+TEST(SplitPolygon, CoversACombOfManyTeethOnce) {
+    std::vector<Vec3> corners;
+    constexpr int teeth = 20'000;
+    for (int i = 0; i < teeth; ++i) {
+        const double x = 2.0 * i;
+        corners.push_back({x, 0, 0});
+        corners.push_back({x, 4e4, 0});
+        corners.push_back({x + 1, 4e4, 0});
+        corners.push_back({x + 1, 0, 0});
+    }
+    corners.push_back({2.0 * teeth, 0, 0});
+    corners.push_back({2.0 * teeth, -1, 0});
+    corners.push_back({0, -1, 0});
+    const Split result = split(corners);
+    ASSERT_EQ(result.kind, OutlineKind::simple);
+    expect_covered(corners, result);
+}
+
 TEST(SplitPolygon, EndsSoonWhateverTheCorners) {
     std::mt19937 random(1988);
     std::vector<Vec3> corners;

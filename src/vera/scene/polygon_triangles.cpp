@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/scene/polygon_triangles.h"
 
+#include "vera/scene/corner_tree.h"
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace vera {
 
@@ -16,17 +20,8 @@ Vec3 doubled_area_vector(std::span<const Vec3> corners) {
 
 namespace {
 
-struct FlatPoint {
-    double x = 0;
-    double y = 0;
-
-    friend bool operator==(const FlatPoint&, const FlatPoint&) = default;
-};
-
-/// Positive where a, b, c turn to the left.
-double turn(FlatPoint a, FlatPoint b, FlatPoint c) {
-    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
+using detail::FlatPoint;
+using detail::turn;
 
 /// The corners relative to the first one, scaled by a power of two to a size of about 1, so that no
 /// product of them underflows or overflows.
@@ -105,6 +100,7 @@ public:
     EarClipper(const std::vector<FlatPoint>& points, std::vector<CornerTriple>& triangles)
         : points_(points)
         , triangles_(triangles)
+        , reflex_(points)
         , left_(points.size())
         , steps_left_(steps_per_corner * points.size()) {
         const auto n = static_cast<std::uint32_t>(points.size());
@@ -115,15 +111,9 @@ public:
             previous_[i] = i == 0 ? n - 1 : i - 1;
             next_[i] = i + 1 == n ? 0 : i + 1;
         }
-        for (std::uint32_t i = 0; i < n; ++i) {
+        for (std::uint32_t i = 0; i < n; ++i)
             update(i);
-            if (state_[i] == State::reflex)
-                by_x_.push_back(i);
-        }
-        reflex_count_ = by_x_.size();
-        std::sort(by_x_.begin(), by_x_.end(), [&](std::uint32_t a, std::uint32_t b) {
-            return points_[a].x != points_[b].x ? points_[a].x < points_[b].x : a < b;
-        });
+        find_reflex();
     }
 
     /// Whether all of the polygon could be cut off in ears.
@@ -178,40 +168,29 @@ private:
         update(before);
         update(after);
         // No corner becomes reflex; those that no longer are, are not to be looked at again.
-        if (2 * reflex_count_ < by_x_.size())
-            by_x_.erase(
-                std::remove_if(
-                    by_x_.begin(),
-                    by_x_.end(),
-                    [&](std::uint32_t j) { return state_[j] != State::reflex; }),
-                by_x_.end());
+        if (2 * reflex_count_ < reflex_.size())
+            find_reflex();
         return before;
     }
 
+    void find_reflex() {
+        std::vector<std::uint32_t> reflex;
+        for (std::uint32_t i = 0; i < state_.size(); ++i)
+            if (state_[i] == State::reflex)
+                reflex.push_back(i);
+        reflex_count_ = reflex.size();
+        reflex_.build(std::move(reflex));
+    }
+
     bool is_ear(std::uint32_t i) {
-        const FlatPoint a = points_[previous_[i]];
-        const FlatPoint b = points_[i];
-        const FlatPoint c = points_[next_[i]];
-        const double lowest = std::min({a.x, b.x, c.x});
-        const double highest = std::max({a.x, b.x, c.x});
-        auto candidate =
-            std::lower_bound(by_x_.begin(), by_x_.end(), lowest, [&](std::uint32_t j, double x) {
-                return points_[j].x < x;
-            });
-        for (; candidate != by_x_.end() && points_[*candidate].x <= highest; ++candidate) {
-            if (steps_left_ == 0)
-                return false;
-            --steps_left_;
-            if (state_[*candidate] != State::reflex)
-                continue;
-            const FlatPoint point = points_[*candidate];
+        const std::array<FlatPoint, 3> ear = {points_[previous_[i]], points_[i], points_[next_[i]]};
+        const auto is_in_the_way = [&](std::uint32_t other) {
             // Where a bridge joins a hole to the outline, two corners are the same point.
-            if (point == a || point == b || point == c)
-                continue;
-            if (turn(a, b, point) >= 0 && turn(b, c, point) >= 0 && turn(c, a, point) >= 0)
-                return false;
-        }
-        return true;
+            const FlatPoint point = points_[other];
+            return state_[other] == State::reflex && point != ear[0] && point != ear[1]
+                && point != ear[2];
+        };
+        return !reflex_.is_any_in(ear, is_in_the_way, steps_left_);
     }
 
     /// When no ear is left: corners on straight lines and the tips of spikes hold no area.
@@ -242,7 +221,7 @@ private:
     std::vector<CornerTriple>& triangles_;
     std::vector<std::uint32_t> previous_;
     std::vector<std::uint32_t> next_;
-    std::vector<std::uint32_t> by_x_; ///< the reflex corners, and some that were
+    detail::CornerTree reflex_; ///< the reflex corners, and some that were
     std::size_t reflex_count_ = 0;
     std::vector<State> state_;
     std::size_t left_;

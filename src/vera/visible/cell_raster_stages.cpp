@@ -262,9 +262,9 @@ ExpectedPieces expected_pieces(
     const std::vector<MarkedEdge> marked = marked_edges(raster, first_edge, last_edge, distance);
     std::vector<ExpectedPieces> found(marked.size());
     parallel_ranges(marked.size(), 16, [&](std::size_t first, std::size_t last) {
-        stop_if_raised(cancel);
         std::unique_ptr<PartSweep> sweep = sweeps.take();
         for (std::size_t i = first; i < last; ++i) {
+            stop_if_raised(cancel);
             const std::uint32_t edge = marked[i].edge;
             if (!raster.is_near_change.empty() && raster.is_near_change[edge] == 0) {
                 found[i].pieces =

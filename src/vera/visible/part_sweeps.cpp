@@ -23,8 +23,7 @@ const VisiblePieces& PartSweep::followed(std::uint32_t edge) {
 VisiblePieces PartSweep::followed(std::size_t first, std::size_t last, const CancelFlag* cancel) {
     clear();
     for (std::size_t i = first; i < last; ++i) {
-        if (i % 16 == 0)
-            stop_if_raised(cancel);
+        stop_if_raised(cancel); // one edge may be compared with all triangles
         if (raster_.is_near_change.empty() || raster_.is_near_change[i] != 0)
             sweep_.follow(static_cast<std::uint32_t>(i), found_);
     }

@@ -31,13 +31,18 @@ void SeenBeside::find_front(std::uint8_t side, Front& front) {
         return;
     // What is hidden by something hidden is hidden by what hides that as well.
     in_front_.clear();
-    for (const InFront& one : front)
-        in_front_.push_back(one.candidate);
-    std::erase_if(front, [&](const InFront& one) {
-        return std::any_of(in_front_.begin(), in_front_.end(), [&](std::uint32_t other) {
-            return candidates_[other].hides(candidates_[one.candidate]);
-        });
-    });
+    for (const InFront& one : front) {
+        const Candidate& c = candidates_[one.candidate];
+        in_front_.push_back(
+            {{c.near[0] - c.margin, c.near[1] - c.margin},
+             {c.near[0] + c.margin, c.near[1] + c.margin}});
+    }
+    const std::vector<std::uint8_t>& is_hidden = hidden_.hidden(in_front_);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < front.size(); ++i)
+        if (is_hidden[i] == 0)
+            front[kept++] = front[i];
+    front.resize(kept);
 }
 
 bool SeenBeside::has_one_sided(const Front& front) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "vera/visible/sure_nearness.h"
 #include "vera/visible/triangle_order.h"
 
 #include <array>
@@ -131,7 +132,8 @@ private:
     std::vector<std::uint32_t> on_one_side_; ///< candidates
     std::uint32_t foremost_ = nothing;       ///< of those on both, as is_before() tells
     std::array<Front, 2> fronts_;            ///< on the left and on the right
-    std::vector<std::uint32_t> in_front_;    ///< candidates of one of these
+    std::vector<SureNearness> in_front_;     ///< of the candidates of one of these
+    HiddenOfMany hidden_;
     bool changes_ = false; ///< somebody comes to be in front of somebody on the way
     std::vector<std::pair<std::uint32_t, std::uint32_t>>* penetrating_ = nullptr;
     std::uint64_t comparisons_ = 0;
