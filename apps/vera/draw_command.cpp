@@ -325,6 +325,15 @@ void print_notes(const DrawnScene& drawn, const Console& console) {
                 drawn.penetrating,
                 drawn.cut_rounds),
             console);
+    // As far as --verify lets a border be off.
+    constexpr double most_join = 1.0 / 64;
+    if (drawn.longest_join > most_join)
+        print_note(
+            fmt::format(
+                "borders that do not close are joined by straight ways of up to {:.3g} pixels: "
+                "faces there may be wrong, as --verify tells",
+                drawn.longest_join),
+            console);
 }
 
 nlohmann::ordered_json as_json(const Report& report, const DrawnScene& drawn) {

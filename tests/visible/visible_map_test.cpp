@@ -2,6 +2,7 @@
 #include "vera/base/parallel.h"
 #include "vera/visible/brute_force.h"
 #include "vera/visible/cells.h"
+#include "vera/visible/open_points.h"
 #include "vera/visible/penetrations.h"
 #include "vera/visible/sheets.h"
 #include "vera/visible/visible_map.h"
@@ -16,6 +17,7 @@
 #include <vector>
 
 #include "visible/map_turns.h"
+#include "visible/maximal_pieces.h"
 #include "visible/screen_scenes.h"
 #include <gtest/gtest.h>
 
@@ -565,13 +567,74 @@ TEST(VisibleMap, HasTheAreaOfThePictureAlsoWhereWaysAreJoined) {
     std::size_t joined = 0;
     for (std::uint64_t seed = 1200; seed < 1400; ++seed) {
         ScreenScene scene = cut_before_a_sheet(seed);
-        const WholePieces whole = whole_pieces(scene, {}, nullptr, VisibilityEngine::cells, {});
+        const WholePieces whole = whole_pieces(scene);
+        EXPECT_EQ(whole.left, 0U) << seed;
         const VisibleMap map = visible_map(scene, whole.pieces);
         joined += map.joined_sides.size();
         // What three surfaces leave between them is a few steps wide.
         EXPECT_NEAR(area_of(map), std::ldexp(1.0, 2 * screen_bits), 64.0 * screen_size) << seed;
+        EXPECT_LE(map.longest_join, short_way) << seed;
     }
-    EXPECT_GT(joined, 100U);
+    EXPECT_GT(joined, 50U);
+}
+
+TEST(VisibleMap, IsThePictureWhereTheOrderOfThreeGoesRound) {
+    // Neighbours told different fronts there, and ways were joined across half the picture.
+    for (const std::uint64_t seed : {94U, 3314U, 6934U})
+        for (const auto engine : {VisibilityEngine::cells, VisibilityEngine::sweep}) {
+            ScreenScene scene = cut_before_a_sheet(seed);
+            const WholePieces whole = whole_pieces(scene, {}, nullptr, engine);
+            EXPECT_EQ(whole.left, 0U) << seed;
+            EXPECT_GT(whole.opened, 0U) << seed;
+            EXPECT_TRUE(open_points(scene, whole.pieces).empty()) << seed;
+            const VisibleMap map = visible_map(scene, whole.pieces);
+            EXPECT_NEAR(area_of(map), std::ldexp(1.0, 2 * screen_bits), 64.0 * screen_size) << seed;
+            EXPECT_LE(map.longest_join, short_way) << seed;
+        }
+}
+
+TEST(OpenPoints, AreThoseAtWhichWaysEnd) {
+    const ScreenScene scene = scattered(3, 40, screen_size / 2);
+    const VisiblePieces whole = cell_raster(scene);
+    EXPECT_TRUE(open_points(scene, whole, 0).empty());
+    std::mt19937_64 random(5);
+    for (int round = 0; round < 200; ++round) {
+        VisiblePieces pieces = whole;
+        const std::size_t one = random() % pieces.pieces.size();
+        const VisiblePiece gone = pieces.pieces[one];
+        pieces.pieces.erase(pieces.pieces.begin() + static_cast<std::ptrdiff_t>(one));
+        std::vector<std::uint32_t> ends = {gone.from, gone.to};
+        std::sort(ends.begin(), ends.end());
+        std::vector<PackedPoint> expected;
+        for (const std::uint32_t end : ends)
+            expected.push_back(pieces.points[end]);
+        std::vector<PackedPoint> found = open_points(scene, pieces, 0);
+        ASSERT_EQ(found.size(), 2U);
+        if (!(found[0] == expected[0]))
+            std::swap(found[0], found[1]);
+        EXPECT_TRUE(found == expected);
+        // Both ends do where they are near each other.
+        const double length = std::max(
+            std::abs(expected[0].x() - expected[1].x()),
+            std::abs(expected[0].y() - expected[1].y()));
+        EXPECT_TRUE(open_points(scene, pieces, length).empty());
+        EXPECT_EQ(open_points(scene, pieces, 0.5 * length).size(), 2U);
+    }
+}
+
+/// Where the order of triangles goes round nowhere, what is hidden makes no difference.
+TEST(VisiblePieces, AmongAllAreThoseFoundWithoutWhatIsHidden) {
+    for (std::uint64_t seed = 0; seed < 60; ++seed) {
+        const ScreenScene scene = layers(seed, 2 + seed % 30, std::int32_t{1} << (1 + seed % 4));
+        const VisiblePieces found = cell_raster(scene);
+        std::vector<PackedPoint> near;
+        for (std::size_t i = 0; i < found.points.size(); i += 1 + seed % 5)
+            near.push_back(found.points[i]);
+        const VisiblePieces again = cell_raster_among_all(near, found, scene);
+        EXPECT_TRUE(again.penetrating.empty()) << seed;
+        EXPECT_TRUE(testing::maximal_pieces(scene, again) == testing::maximal_pieces(scene, found))
+            << seed;
+    }
 }
 
 TEST(VisibleMap, TellsWhatPenetrates) {

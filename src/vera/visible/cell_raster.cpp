@@ -14,9 +14,9 @@ namespace vera {
 
 namespace {
 
-/// Which edges lie in a cell that what was changed touches, or did.
+/// Which cells are touched by what was changed, or were.
 std::vector<std::uint8_t>
-edges_near(const SceneChange& change, const CellRaster& raster, const Cells& cells) {
+cells_of_change(const SceneChange& change, const CellRaster& raster, const Cells& cells) {
     std::vector<std::uint8_t> is_changed(cells.blocked.size());
     const auto mark = [&](const std::array<ScreenVertex, 3>& corners) {
         for_each_cell_of(cells, corners, [&](std::size_t cell) { is_changed[cell] = 1; });
@@ -25,6 +25,25 @@ edges_near(const SceneChange& change, const CellRaster& raster, const Cells& cel
         mark(corners_of(raster.scene, raster.scene.triangles[triangle]));
     for (const std::array<ScreenVertex, 3>& corners : change.places)
         mark(corners);
+    return is_changed;
+}
+
+/// Which cells are those of the points, of several where one lies on a border.
+std::vector<std::uint8_t> cells_of_points(std::span<const PackedPoint> points, const Cells& cells) {
+    std::vector<std::uint8_t> is_asked(cells.blocked.size());
+    for (const PackedPoint& packed : points) {
+        const ScreenPoint whole = RationalPoint(packed).whole;
+        for (const std::int32_t x : {whole.x - 1, whole.x + 1})
+            for (const std::int32_t y : {whole.y - 1, whole.y + 1})
+                is_asked[cells.number(
+                    cells.cell_of(std::max(x, 0)), cells.cell_of(std::max(y, 0)))] = 1;
+    }
+    return is_asked;
+}
+
+/// Which edges lie in one of the cells.
+std::vector<std::uint8_t> edges_in(
+    const std::vector<std::uint8_t>& is_changed, const CellRaster& raster, const Cells& cells) {
     std::vector<std::uint8_t> near(raster.edges.edges.size());
     parallel_ranges(near.size(), 4096, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
@@ -132,7 +151,7 @@ VisiblePieces cell_raster_after(
     std::vector<std::uint8_t> is_kept;
     {
         const AskedOfRaster asked = [&](CellRaster& of, const Cells& cells) {
-            of.is_near_change = edges_near(change, of, cells);
+            of.is_near_change = edges_in(cells_of_change(change, of, cells), of, cells);
             return cells_along(of.is_near_change, of, cells);
         };
         CellRaster raster = raster_of(scene, asked, progress, cancel);
@@ -158,6 +177,22 @@ VisiblePieces cell_raster_after(
             result.penetrating.emplace_back(a, b);
     sort_pairs(result.penetrating);
     return result;
+}
+
+VisiblePieces cell_raster_among_all(
+    std::span<const PackedPoint> points,
+    VisiblePieces before,
+    const ScreenScene& scene,
+    const CancelFlag* cancel) {
+    const AskedOfRaster asked = [&](CellRaster& of, const Cells& cells) {
+        of.is_near_change = edges_in(cells_of_points(points, cells), of, cells);
+        return cells_along(of.is_near_change, of, cells);
+    };
+    const CellRaster raster = raster_of(scene, asked, {}, cancel, Hiding::by_nothing);
+    std::vector<VisiblePieces> parts;
+    follow_edges(raster, 0, raster.edges.edges.size(), {}, cancel, parts);
+    keep_pieces(kept_pieces(raster, before.pieces), before);
+    return merged(std::move(before), joined(std::move(parts)));
 }
 
 } // namespace vera

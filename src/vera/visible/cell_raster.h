@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -77,5 +78,14 @@ VisiblePieces cell_raster_after(
     const Progress& progress = {},
     const CancelFlag* cancel = nullptr,
     const ExpectPieces& expect = {});
+
+/// The pieces before, but of edges that pass near one of the points those that are found when
+/// nothing is left out of what lies beside them, however surely something else hides it. Throws
+/// Cancelled.
+VisiblePieces cell_raster_among_all(
+    std::span<const PackedPoint> points,
+    VisiblePieces before,
+    const ScreenScene& scene,
+    const CancelFlag* cancel = nullptr);
 
 } // namespace vera

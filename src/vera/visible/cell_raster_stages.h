@@ -29,7 +29,8 @@ CellRaster raster_of(
     const ScreenScene& scene,
     const AskedOfRaster& asked,
     const Progress& progress,
-    const CancelFlag* cancel);
+    const CancelFlag* cancel,
+    Hiding hiding = Hiding::by_what_covers);
 
 /// The cells along the edges that are asked for.
 std::vector<std::uint8_t> cells_along(

@@ -56,7 +56,8 @@ public:
         std::span<const NearnessSlope> slopes,
         const CancelFlag* cancel,
         const AskedCells& asked,
-        const SheetScene* sheets);
+        const SheetScene* sheets,
+        Hiding hiding);
 
     Cells cells();
 
@@ -106,6 +107,7 @@ private:
     const CancelFlag* cancel_;
     const AskedCells& asked_;
     const SheetScene* sheets_;
+    Hiding hiding_;
     std::vector<std::uint8_t> is_asked_; ///< of cells; empty: all are
     std::vector<std::uint8_t> matters_; ///< of triangles, whether they may be in such a cell's list
     std::vector<double> nearness_;      ///< of triangles, for hiding
@@ -117,12 +119,14 @@ CellLists::CellLists(
     std::span<const NearnessSlope> slopes,
     const CancelFlag* cancel,
     const AskedCells& asked,
-    const SheetScene* sheets)
+    const SheetScene* sheets,
+    Hiding hiding)
     : scene_(scene)
     , slopes_(slopes)
     , cancel_(cancel)
     , asked_(asked)
     , sheets_(sheets)
+    , hiding_(hiding)
     , matters_(scene.triangles.size())
     , nearness_(scene.triangles.size())
     , reaches_((scene.triangles.size() + group - 1) / group) {
@@ -315,11 +319,13 @@ std::uint64_t CellLists::count(Cells& cells) {
         static_cast<std::size_t>(cells.per_side) * static_cast<std::size_t>(cells.per_side);
     cells.blocked.assign(number, -1);
     ask(cells);
-    block(cells);
+    if (hiding_ == Hiding::by_what_covers)
+        block(cells);
     for (std::size_t cell = 0; cell < is_asked_.size(); ++cell)
         if (is_asked_[cell] == 0)
             cells.blocked[cell] = std::numeric_limits<double>::infinity();
-    block_by_large_sheets(cells);
+    if (hiding_ == Hiding::by_what_covers)
+        block_by_large_sheets(cells);
     leave_out_hidden(cells);
     return count_entries(cells, is_surface());
 }
@@ -411,8 +417,9 @@ Cells cells_of(
     std::span<const NearnessSlope> slopes,
     const CancelFlag* cancel,
     const AskedCells& asked,
-    const SheetScene* sheets) {
-    return CellLists(scene, slopes, cancel, asked, sheets).cells();
+    const SheetScene* sheets,
+    Hiding hiding) {
+    return CellLists(scene, slopes, cancel, asked, sheets, hiding).cells();
 }
 
 Cells cells_of(const ScreenScene& scene, const CancelFlag* cancel) {

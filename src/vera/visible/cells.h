@@ -129,7 +129,8 @@ Cells cells_of(
     std::span<const NearnessSlope> slopes,
     const CancelFlag* cancel = nullptr,
     const AskedCells& asked = {},
-    const SheetScene* sheets = nullptr);
+    const SheetScene* sheets = nullptr,
+    Hiding hiding = Hiding::by_what_covers);
 
 /// The same where slopes are not needed otherwise.
 Cells cells_of(const ScreenScene& scene, const CancelFlag* cancel = nullptr);

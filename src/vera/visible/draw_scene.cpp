@@ -332,6 +332,8 @@ DrawnScene drawn_scene(Request request) {
     join_faces(request, seen);
     VisibleMap map = map_of(request, seen, of_map);
     drawn.visible_faces = count_seen_faces(map);
+    drawn.longest_join = map.longest_join / screen_size
+        * static_cast<double>(std::max(request.picture.width, request.picture.height));
     if (settings.check)
         settings.check(
             {map,

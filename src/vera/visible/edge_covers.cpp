@@ -304,7 +304,7 @@ bool EdgeSweep::gather(std::uint32_t edge) {
     // What is left out where the edge is hidden must be found to be hidden, as it is below.
     const bool leaves_out = !are_there_shadows && shadowed != several_sources;
     classify_along(surfaces, all, leaves_out ? raster_.hidden_eighths[edge] : 0);
-    if (shadowed != several_sources) {
+    if (shadowed != several_sources && raster_.hiding == Hiding::by_what_covers) {
         find_hidden_parts();
         if (is_hidden(beginning, ending))
             return false;

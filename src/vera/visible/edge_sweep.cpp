@@ -203,6 +203,10 @@ bool EdgeSweep::speaks_here(std::uint32_t edge, const Cover* left, const Cover* 
     for (const Cover* cover : {left, right})
         if (cover != nullptr)
             first = std::min(first, cover->edge);
+    // Where the order goes round, what ends here may decide between two others that do not.
+    if (first == no_edge && left != right && raster_.hiding == Hiding::by_nothing)
+        for (const std::uint32_t i : active_)
+            first = std::min(first, covers_[i].edge);
     if (left == right && left != nullptr)
         for (const std::uint32_t i : active_shadows_)
             if (source_of(covers_[i].triangle) == source_of(left->triangle))

@@ -31,6 +31,7 @@ struct CellRaster {
     std::vector<std::uint8_t> inner;
     std::vector<std::uint32_t> shadowed;
     std::vector<std::uint8_t> is_near_change; ///< of edges; empty: all are
+    Hiding hiding = Hiding::by_what_covers;   ///< as the cells were made
 
     /// Whether the edge is one between two parts of one shadow.
     bool is_inner(std::uint32_t edge) const {
@@ -66,7 +67,7 @@ public:
     explicit EdgeSweep(const CellRaster& raster)
         : raster_(raster)
         , may_be_shadow_(!raster.shadowed.empty())
-        , seen_(raster.scene, raster.slopes)
+        , seen_(raster.scene, raster.slopes, raster.hiding)
         , stamps_(raster.scene.triangles.size()) {}
 
     void follow(std::uint32_t edge, VisiblePieces& result);

@@ -5,7 +5,9 @@
 #include "vera/base/progress_part.h"
 #include "vera/exact/front_order.h"
 #include "vera/visible/edges.h"
+#include "vera/visible/open_points.h"
 #include "vera/visible/plane_sweep.h"
+#include "vera/visible/point_numbers.h"
 
 #include <array>
 #include <cmath>
@@ -140,6 +142,34 @@ void replace_by_parts(
         change.triangles.push_back(static_cast<std::uint32_t>(i));
 }
 
+/// Closes ways round what is seen, until none is open or nothing new is; nothing is where that
+/// shows triangles that pass through each other. Where the order of three goes round, within what
+/// the grid did to them, the front is a matter of which of them are surely hidden along a part of
+/// an edge, and another edge of the same area may tell another one. Near such places all is asked
+/// again among all that is there, which is the same for all edges of an area. `open` are the points
+/// that were open in rounds before, and takes those that are now.
+void close_ways(
+    const ScreenScene& scene,
+    VisiblePieces& pieces,
+    std::vector<PackedPoint>& open,
+    const CancelFlag* cancel) {
+    const auto ask_again = [&] {
+        pieces = cell_raster_among_all(open, std::move(pieces), scene, cancel);
+    };
+    if (!open.empty())
+        ask_again();
+    while (pieces.penetrating.empty()) {
+        const std::vector<PackedPoint> here = open_points(scene, pieces);
+        const std::size_t before = open.size();
+        PointNumbers numbers(open, before + here.size());
+        for (const PackedPoint& point : here)
+            numbers.number(point);
+        if (open.size() == before)
+            return;
+        ask_again();
+    }
+}
+
 } // namespace
 
 SceneChange cut_penetrations(
@@ -191,7 +221,11 @@ WholePieces whole_pieces(
     result.pieces = engine == VisibilityEngine::sweep
         ? plane_sweep(scene, {}, first_round, cancel)
         : cell_raster(scene, first_round, cancel, expect);
+    std::vector<PackedPoint> open;
     while (true) {
+        if (result.pieces.penetrating.empty())
+            close_ways(scene, result.pieces, open, cancel);
+        result.opened = open.size();
         result.left = result.pieces.penetrating.size();
         if (result.left == 0 || result.rounds == most_rounds
             || scene.triangles.size() > most_triangles)

@@ -26,9 +26,12 @@ struct WholePieces {
     VisiblePieces pieces;
     std::size_t left = 0;
     int rounds = 1;
+    /// Points at which ways round what is seen did not close: near them all was asked again.
+    std::size_t opened = 0;
 };
 
-/// What the engine finds in the scene after everything was cut in it that is seen to penetrate.
+/// What the engine finds in the scene after everything was cut in it that is seen to penetrate;
+/// ways round all that is seen close, but where something is left, or within a step.
 /// Throws Cancelled, and std::runtime_error where memory would not suffice for the engine.
 WholePieces whole_pieces(
     ScreenScene& scene,

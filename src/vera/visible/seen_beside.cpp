@@ -19,11 +19,17 @@ void SeenBeside::follow(ScreenPoint begin, ScreenPoint end) {
 }
 
 void SeenBeside::find_front(std::uint8_t side, Front& front) {
+    front.clear();
+    if (hiding_ == Hiding::by_nothing) {
+        for (std::uint32_t i = 0; i < candidates_.size(); ++i)
+            if ((candidates_[i].sides & side) != 0)
+                front.push_back({i, {candidates_[i].triangle, {}}});
+        return;
+    }
     std::uint32_t foremost = foremost_;
     for (const std::uint32_t i : on_one_side_)
         if ((candidates_[i].sides & side) != 0 && (foremost == nothing || is_before(i, foremost)))
             foremost = i;
-    front.clear();
     for (std::uint32_t i = 0; i < candidates_.size(); ++i)
         if ((candidates_[i].sides & side) != 0 && !candidates_[foremost].hides(candidates_[i]))
             front.push_back({i, {candidates_[i].triangle, {}}});
@@ -63,6 +69,66 @@ void SeenBeside::put_in_order(Front& front) const {
     for (auto& [candidate, on_line] : front)
         on_line.chord =
             chord_in(corners_of(scene_, scene_.triangles[on_line.triangle]), begin_, end_);
+}
+
+/// Whether a, which is before b in the front, is in front of b there, by all places at which both
+/// are.
+bool SeenBeside::is_in_front(const InFront& a, const InFront& b, double part) {
+    const Candidate& one = candidates_[a.candidate];
+    const Candidate& other = candidates_[b.candidate];
+    if (one.hides(other) || other.hides(one))
+        return one.hides(other);
+    ++comparisons_;
+    const FrontOrder order = triangle_order(scene_, slopes_, one.triangle, other.triangle);
+    if (order != FrontOrder::penetrating)
+        return order == FrontOrder::first;
+    changes_ = changes_ || (one.near[0] - other.near[0]) * (one.near[1] - other.near[1]) <= 0;
+    return one.near_at(part) > other.near_at(part);
+}
+
+/// Of the front, by their numbers there, the fewest that none of the others is in front of: one,
+/// but where the order goes round.
+std::vector<std::uint32_t> SeenBeside::foremost_among_all(double part, const Front& front) {
+    const auto is_before = [&](std::uint32_t a, std::uint32_t b) {
+        return a < b ? is_in_front(front[a], front[b], part)
+                     : !is_in_front(front[b], front[a], part);
+    };
+    std::uint32_t first = 0; // in front of all others, perhaps by way of some between
+    for (std::uint32_t i = 1; i < front.size(); ++i)
+        if (is_before(i, first))
+            first = i;
+    std::vector<std::uint32_t> foremost = {first};
+    for (std::size_t next = 0; next < foremost.size(); ++next)
+        for (std::uint32_t i = 0; i < front.size(); ++i)
+            if (std::find(foremost.begin(), foremost.end(), i) == foremost.end()
+                && is_before(i, foremost[next]))
+                foremost.push_back(i);
+    std::sort(foremost.begin(), foremost.end());
+    return foremost;
+}
+
+/// The first of the text of the foremost. Those of them that pass through each other on the way are
+/// told where it is another one at its end than at its beginning.
+std::uint32_t SeenBeside::find_among_all(const Front& front) {
+    changes_ = false;
+    const std::vector<std::uint32_t> middle = foremost_among_all(0.5, front);
+    if (changes_) {
+        std::vector<std::uint32_t> either = foremost_among_all(0, front);
+        const std::vector<std::uint32_t> last = foremost_among_all(1, front);
+        if (either[0] != last[0]) {
+            either.insert(either.end(), last.begin(), last.end());
+            for (const std::uint32_t a : either)
+                for (const std::uint32_t b : either) {
+                    changes_ = false;
+                    if (a < b)
+                        is_in_front(front[a], front[b], 0);
+                    if (changes_)
+                        penetrating_->push_back(
+                            std::minmax(front[a].on_line.triangle, front[b].on_line.triangle));
+                }
+        }
+    }
+    return front[middle[0]].candidate;
 }
 
 SeenBeside::Top SeenBeside::top_at(double part, const Front& front) {
@@ -119,6 +185,8 @@ std::uint32_t SeenBeside::find_in(Front& front) {
     if (front.size() < 2)
         return front.empty() ? nothing : front[0].candidate;
     put_in_order(front);
+    if (hiding_ == Hiding::by_nothing)
+        return find_among_all(front);
     changes_ = false;
     const Top middle = top_at(0.5, front);
     if (changes_)
@@ -128,7 +196,7 @@ std::uint32_t SeenBeside::find_in(Front& front) {
 
 SeenBeside::Seen SeenBeside::find(
     std::vector<std::pair<std::uint32_t, std::uint32_t>>& penetrating, bool asks_always) {
-    const bool is_hidden = foremost_ != nothing
+    const bool is_hidden = hiding_ == Hiding::by_what_covers && foremost_ != nothing
         && std::all_of(on_one_side_.begin(), on_one_side_.end(), [&](std::uint32_t i) {
                                return candidates_[foremost_].hides(candidates_[i]);
                            });

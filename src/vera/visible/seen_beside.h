@@ -32,9 +32,13 @@ public:
     };
 
     /// slopes[i] is that of triangle i. Both must outlive this.
-    SeenBeside(const ScreenScene& scene, std::span<const NearnessSlope> slopes)
+    SeenBeside(
+        const ScreenScene& scene,
+        std::span<const NearnessSlope> slopes,
+        Hiding hiding = Hiding::by_what_covers)
         : scene_(scene)
-        , slopes_(slopes) {}
+        , slopes_(slopes)
+        , hiding_(hiding) {}
 
     /// Goes on with another edge.
     void follow(ScreenPoint begin, ScreenPoint end);
@@ -120,10 +124,14 @@ private:
     void put_in_order(Front& front) const;
     std::uint32_t find_in(Front& front);
     Top top_at(double part, const Front& front);
+    bool is_in_front(const InFront& a, const InFront& b, double part);
+    std::vector<std::uint32_t> foremost_among_all(double part, const Front& front);
+    std::uint32_t find_among_all(const Front& front);
     void find_penetrating(Top first, Top last, const Front& front);
 
     const ScreenScene& scene_;
     std::span<const NearnessSlope> slopes_;
+    Hiding hiding_;
     ScreenPoint begin_;
     ScreenPoint end_;
     NearnessPlace bit_; ///< of the way along the edge

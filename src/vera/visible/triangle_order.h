@@ -12,6 +12,9 @@
 
 namespace vera {
 
+/// Whether what something else surely hides is left out before triangles are put in order.
+enum class Hiding : std::uint8_t { by_what_covers, by_nothing };
+
 /// Of each triangle.
 std::vector<NearnessSlope> slopes_of(const ScreenScene& scene);
 

@@ -4,12 +4,14 @@
 #include "vera/base/free_room.h"
 #include "vera/base/long_loop.h"
 #include "vera/base/progress_part.h"
+#include "vera/visible/open_points.h"
 #include "vera/visible/traced_rings.h"
 #include "vera/visible/ways.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numeric>
 #include <span>
 #include <tuple>
@@ -101,8 +103,12 @@ public:
     /// Borders between two regions of which no piece was found come first: such a one leads from a
     /// place where the one region ends and the other begins to one where it is the other way round,
     /// and both get the same straight way. What is left, at places where three regions or more meet
-    /// so, is joined region by region.
-    void join(const Loose& loose) { join_each_region(join_borders(loose)); }
+    /// so, is joined region by region. Both are done of short ways before they are of others, so
+    /// that none of what is near leads far away.
+    void join(Loose loose) {
+        for (const double most : {short_way, std::numeric_limits<double>::infinity()})
+            loose = join_each_region(join_borders(loose, most), most);
+    }
 
 private:
     /// A place where `low` and `high` are the regions that end and begin, the smaller number first.
@@ -112,7 +118,7 @@ private:
         std::uint32_t number = 0; ///< in Loose
     };
 
-    Loose join_borders(const Loose& loose) {
+    Loose join_borders(const Loose& loose, double most) {
         std::vector<Break> breaks;
         for (std::uint32_t i = 0; i < loose.ends.size(); ++i) {
             const auto [low, high] = std::minmax({region(loose.ends[i]), region(loose.begins[i])});
@@ -136,11 +142,12 @@ private:
             const auto distance = [&](std::uint32_t a, std::uint32_t b) {
                 return distance_of(loose.ends[a], loose.begins[b]);
             };
-            pair_nearest(low_ends, high_ends, distance, [&](std::uint32_t a, std::uint32_t b) {
-                follow(loose.ends[a], loose.begins[b]);
-                follow(loose.ends[b], loose.begins[a]);
-                is_joined[a] = is_joined[b] = true;
-            });
+            pair_nearest(
+                low_ends, high_ends, most, distance, [&](std::uint32_t a, std::uint32_t b) {
+                    follow(loose.ends[a], loose.begins[b]);
+                    follow(loose.ends[b], loose.begins[a]);
+                    is_joined[a] = is_joined[b] = true;
+                });
         }
         Loose left;
         for (std::size_t i = 0; i < loose.ends.size(); ++i)
@@ -149,7 +156,7 @@ private:
         return left;
     }
 
-    void join_each_region(Loose loose) {
+    Loose join_each_region(Loose loose, double most) {
         const auto by_region = [&](std::uint32_t a, std::uint32_t b) {
             return region(a) != region(b) ? region(a) < region(b) : a < b;
         };
@@ -162,48 +169,62 @@ private:
         const auto ends_at = [&](std::size_t i) {
             return loose.ends.begin() + static_cast<std::ptrdiff_t>(i);
         };
+        Loose left;
         for (std::size_t first = 0, last = 0; first < loose.ends.size(); first = last) {
             while (last < loose.ends.size()
                    && region(loose.ends[last]) == region(loose.ends[first]))
                 ++last;
-            pair_nearest(
+            const Loose far = pair_nearest(
                 {ends_at(first), ends_at(last)},
                 {begins_at(first), begins_at(last)},
+                most,
                 [&](std::uint32_t end, std::uint32_t begin) { return distance_of(end, begin); },
-                [&](std::uint32_t end, std::uint32_t begin) { follow(end, begin); });
+                [&](std::uint32_t end, std::uint32_t begin) {
+                    map_.longest_join = std::max(map_.longest_join, distance_of(end, begin));
+                    follow(end, begin);
+                });
+            for (std::size_t i = 0; i < far.ends.size(); ++i)
+                left.add(far.ends[i], far.begins[i]);
         }
+        return left;
     }
 
-    /// Pairs each end with the nearest beginning that is left, as long as there is one. Those whose
-    /// nearest is the nearest come first: none takes the one that belongs to another.
+    /// Pairs each end with the nearest beginning that is left, as long as there is one and it is no
+    /// farther than most. Those whose nearest is the nearest come first: none takes the one that
+    /// belongs to another. Returns the others.
     template <typename Distance, typename Visit>
-    void pair_nearest(
+    Loose pair_nearest(
         const std::vector<std::uint32_t>& ends,
         std::vector<std::uint32_t> begins,
+        double most,
         const Distance& distance,
         const Visit& visit) const {
-        if (begins.empty())
-            return;
+        Loose left;
+        left.begins = std::move(begins);
+        std::vector<std::uint32_t>& free = left.begins;
         const auto nearest = [&](std::uint32_t end) {
             return std::min_element(
-                begins.begin(), begins.end(), [&](std::uint32_t a, std::uint32_t b) {
+                free.begin(), free.end(), [&](std::uint32_t a, std::uint32_t b) {
                     return distance(end, a) < distance(end, b);
                 });
         };
         std::vector<std::pair<double, std::uint32_t>> in_turn;
         for (const std::uint32_t end : ends) {
             stop_if_raised(cancel_);
-            in_turn.emplace_back(distance(end, *nearest(end)), end);
+            in_turn.emplace_back(free.empty() ? 0 : distance(end, *nearest(end)), end);
         }
         std::sort(in_turn.begin(), in_turn.end());
         for (const auto& [_, end] : in_turn) {
             stop_if_raised(cancel_);
-            if (begins.empty())
-                return;
             const auto begin = nearest(end);
+            if (begin == free.end() || distance(end, *begin) > most) {
+                left.ends.push_back(end);
+                continue;
+            }
             visit(end, *begin);
-            begins.erase(begin);
+            free.erase(begin);
         }
+        return left;
     }
 
     std::uint32_t region(std::uint32_t way) const { return ways_.region[way]; }

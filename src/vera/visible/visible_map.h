@@ -41,10 +41,12 @@ struct VisibleMap {
     std::vector<Ring> rings;                  ///< by region
     std::vector<std::uint32_t> ring_vertices; ///< one ring's behind the other's
     std::vector<std::uint32_t> ring_across;   ///< regions, or no_region; or empty: see RingDetail
-    /// How often ways round what is seen had to be joined by a straight one. None where nothing was
-    /// cut; else two surfaces may part what is seen along lines a step from each other, between
-    /// which neither is seen for sure.
+    /// How often ways round what is seen had to be joined by a straight one: none but where
+    /// triangles that pass through each other were left uncut, and at borders of shadows, where
+    /// surfaces may part what is seen along lines a step from each other.
     std::size_t joined = 0;
+    /// The longest straight way, in steps, that only one of the regions beside it has.
+    double longest_join = 0;
     std::vector<std::size_t> joined_sides; ///< the straight ways: where they begin in ring_vertices
 
     /// The source, or no_source, that ring_across[place] is a region of.
