@@ -10,7 +10,7 @@ namespace vera {
 void give_back_freed_blocks() {
 #ifdef __GLIBC__
     constexpr int mebibyte = 1 << 20;
-    mallopt(M_MMAP_THRESHOLD, 4 * mebibyte); // which ends that it grows
+    mallopt(M_MMAP_THRESHOLD, 2 * mebibyte); // which ends that it grows
     mallopt(M_TRIM_THRESHOLD, 4 * mebibyte);
 #endif
 }

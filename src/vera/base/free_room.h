@@ -11,7 +11,7 @@ void free_room(std::vector<T>& vector) {
     std::vector<T>().swap(vector);
 }
 
-/// From now on the whole process gives back to the system each block of 4 MiB or more as soon as it
+/// From now on the whole process gives back to the system each block of 2 MiB or more as soon as it
 /// is freed. (The C library of GNU, if left alone, comes to keep blocks of up to 32 MiB, between
 /// others that are in use, for the next ones that fit.) What is smaller, and up to 4 MiB behind the
 /// last block in use, is kept for the next ones: to ask the system for it anew takes longer than to

@@ -304,8 +304,11 @@ std::size_t count_seen_faces(const VisibleMap& map) {
 /// What is seen as regions. The pieces are kept where lines are drawn of them, and the screen too.
 /// In style ids nothing asks what is seen across a ring, but for the check.
 VisibleMap map_of(const Request& request, SeenScene& seen, const Progress& progress) {
-    if (has_lines(request.settings.style))
-        return visible_map(seen.screen, seen.whole.pieces, progress, request.cancel);
+    if (has_lines(request.settings.style)) {
+        VisibleMap map = visible_map(seen.screen, seen.whole.pieces, progress, request.cancel);
+        free_room(seen.whole.pieces.unlit); // lines ask for faces alone
+        return map;
+    }
     const bool asks_across = !request.is_in_numbers() || request.settings.check;
     return visible_map(
         std::move(seen.screen),

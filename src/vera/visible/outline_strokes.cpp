@@ -400,7 +400,6 @@ LineParts line_parts(
     }
     free_room(sources.pieces.points);
     free_room(sources.pieces.pieces);
-    free_room(sources.pieces.unlit);
     return lines;
 }
 
