@@ -28,4 +28,25 @@ Convexity convexity(const PrimitivePath& path, std::uint32_t piece) {
     return up < 0 && turn <= 0 ? Convexity::inwards : Convexity::none;
 }
 
+SurfacePoint meeting_by_planes(
+    const PrimitivePath& path, std::uint32_t piece, const Ray& local, const Passage& passage) {
+    constexpr int most_steps = 40;
+    constexpr double nearest = 1e-6; // of the way, and of the last step, which squares it
+    const double reach = 0.5 * (passage.to - passage.from);
+    const double forward = passage.enters ? 1 : -1;
+    const double turned = convexity(path, piece) == Convexity::outwards ? 1 : -1;
+    double t = passage.enters ? passage.from : passage.to;
+    SurfacePoint surface = surface_within(path, piece, point_at(local, t));
+    for (int i = 0; i < most_steps; ++i) {
+        const Vec3 outwards = turned * surface.geometric_normal;
+        const double off = dot(outwards, point_at(local, t) - surface.point);
+        const double speed = -forward * dot(outwards, local.direction);
+        if (!(speed > 0 && off > nearest * speed * reach))
+            break;
+        t += forward * off / speed;
+        surface = surface_within(path, piece, point_at(local, t));
+    }
+    return surface;
+}
+
 } // namespace vera

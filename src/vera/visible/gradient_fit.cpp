@@ -32,26 +32,47 @@ double weight_of(const ColorSample& sample, double tolerance) {
 }
 
 /// How the colours of samples go along one parameter from 0 to 1, as a polygonal line: the values
-/// at the knots of least squares.
+/// at the knots of least squares. The samples are sorted by the parameter, so that those between
+/// two knots follow each other.
 class Profile {
 public:
-    Profile(std::span<const ColorSample> samples, std::span<const double> offsets, double tolerance)
-        : samples_(samples)
-        , offsets_(offsets)
-        , tolerance_(tolerance) {
-        const auto [first, last] = std::ranges::minmax_element(offsets);
-        knots_ = {*first, *last};
-        for (const auto end : {first, last})
-            sample_of_knot_.push_back(static_cast<std::size_t>(end - offsets.begin()));
+    Profile(const Gradient& gradient, std::span<const ColorSample> samples, double tolerance) {
+        along_.reserve(samples.size());
+        for (const ColorSample& sample : samples)
+            along_.push_back(
+                {gradient_offset(gradient, sample.point),
+                 0,
+                 weight_of(sample, tolerance),
+                 sample.slack,
+                 sample.color});
+        std::ranges::stable_sort(along_, {}, &Along::offset);
+        knots_ = {{along_.front().offset, 0, 0}, {along_.back().offset, 0, along_.size() - 1}};
+        if (has_extent())
+            place_samples_after(0);
     }
+
+    /// Whether there are two knots.
+    bool has_extent() const { return knots_.back().offset > knots_.front().offset; }
 
     /// The stops for the knots that there are.
     std::vector<GradientStop> stops() const {
         std::vector<GradientStop> stops(knots_.size());
         const std::vector<Color> values = values_at_knots();
         for (std::size_t i = 0; i < stops.size(); ++i)
-            stops[i] = {knots_[i], drawn_color(values[i])};
+            stops[i] = {knots_[i].offset, drawn_color(values[i])};
         return stops;
+    }
+
+    /// How far off these stops at the knots are, at most.
+    double largest_error(std::span<const GradientStop> stops) const {
+        double largest = 0;
+        for (std::size_t knot = 0; knot + 1 < knots_.size(); ++knot) {
+            const Color from = as_color(stops[knot].color);
+            const Color way = as_color(stops[knot + 1].color) - from;
+            for (const Along& sample : samples_after(knot))
+                largest = std::max(largest, sample.error(from + sample.part * way));
+        }
+        return largest;
     }
 
     /// A knot more: at the sample that is farthest off the lines between the samples at the knots
@@ -60,29 +81,71 @@ public:
     bool add_knot() {
         constexpr double nearest = 1.0 / 64; // of knots
         double most = 0;
-        std::size_t where = 0;
-        for (std::size_t i = 0; i < samples_.size(); ++i) {
-            const auto [knot, part] = place_of(offsets_[i]);
-            const double width = knots_[knot + 1] - knots_[knot];
-            if (std::min(part, 1 - part) * width < nearest)
-                continue;
-            const Color from = samples_[sample_of_knot_[knot]].color;
-            const Color to = samples_[sample_of_knot_[knot + 1]].color;
-            const double off = error_of(samples_[i], from + part * (to - from));
-            if (off > most) {
-                most = off;
-                where = i;
+        const Along* where = nullptr;
+        std::size_t after = 0;
+        for (std::size_t knot = 0; knot + 1 < knots_.size(); ++knot) {
+            const double width = knots_[knot + 1].offset - knots_[knot].offset;
+            const Color from = along_[knots_[knot].sample].color;
+            const Color way = along_[knots_[knot + 1].sample].color - from;
+            for (const Along& sample : samples_after(knot)) {
+                if (std::min(sample.part, 1 - sample.part) * width < nearest)
+                    continue;
+                const double off = sample.error(from + sample.part * way);
+                if (off > most) {
+                    most = off;
+                    where = &sample;
+                    after = knot;
+                }
             }
         }
-        if (most == 0)
+        if (where == nullptr)
             return false;
-        const auto after = static_cast<std::ptrdiff_t>(place_of(offsets_[where]).first) + 1;
-        knots_.insert(knots_.begin() + after, offsets_[where]);
-        sample_of_knot_.insert(sample_of_knot_.begin() + after, where);
+        const auto sample = static_cast<std::size_t>(where - along_.data());
+        std::size_t first = sample;
+        while (along_[first - 1].offset == where->offset)
+            --first;
+        knots_.insert(
+            knots_.begin() + static_cast<std::ptrdiff_t>(after) + 1,
+            {where->offset, first, sample});
+        place_samples_after(after);
+        place_samples_after(after + 1);
         return true;
     }
 
 private:
+    struct Along {
+        double offset = 0;
+        double part = 0; ///< of the way from the knot before it to the next one
+        double weight = 1;
+        double slack = 0;
+        Color color;
+
+        double error(Color painted) const { return largest_difference(painted, color) - slack; }
+    };
+
+    struct Knot {
+        double offset = 0;
+        std::size_t first = 0;  ///< sample that is there or after it
+        std::size_t sample = 0; ///< one that is there
+    };
+
+    static Color as_color(DrawingColor color) {
+        return {color.r / 255.0, color.g / 255.0, color.b / 255.0};
+    }
+
+    std::span<const Along> samples_after(std::size_t knot) const {
+        const std::size_t end = knot + 2 == knots_.size() ? along_.size() : knots_[knot + 1].first;
+        return std::span(along_).subspan(knots_[knot].first, end - knots_[knot].first);
+    }
+
+    void place_samples_after(std::size_t knot) {
+        const double from = knots_[knot].offset;
+        const double width = knots_[knot + 1].offset - from;
+        const std::size_t count = samples_after(knot).size();
+        for (Along& sample : std::span(along_).subspan(knots_[knot].first, count))
+            sample.part = (sample.offset - from) / width;
+    }
+
     /// The equations of least squares have three diagonals. None is singular, as each knot has a
     /// sample of its own.
     std::vector<Color> values_at_knots() const {
@@ -90,16 +153,16 @@ private:
         std::vector<double> diagonal(count, 0);
         std::vector<double> beside(count, 0); // of each and the next
         std::vector<Color> sums(count);
-        for (std::size_t i = 0; i < samples_.size(); ++i) {
-            const auto [knot, part] = place_of(offsets_[i]);
-            const double rest = 1 - part;
-            const double weight = weight_of(samples_[i], tolerance_);
-            diagonal[knot] += weight * rest * rest;
-            diagonal[knot + 1] += weight * part * part;
-            beside[knot] += weight * rest * part;
-            sums[knot] += weight * rest * samples_[i].color;
-            sums[knot + 1] += weight * part * samples_[i].color;
-        }
+        for (std::size_t knot = 0; knot + 1 < count; ++knot)
+            for (const Along& sample : samples_after(knot)) {
+                const double to_next = sample.weight * sample.part;
+                const double to_this = sample.weight - to_next;
+                diagonal[knot] += to_this * (1 - sample.part);
+                diagonal[knot + 1] += to_next * sample.part;
+                beside[knot] += to_this * sample.part;
+                sums[knot] += to_this * sample.color;
+                sums[knot + 1] += to_next * sample.color;
+            }
         for (std::size_t i = 1; i < count; ++i) {
             const double factor = beside[i - 1] / diagonal[i - 1];
             diagonal[i] -= factor * beside[i - 1];
@@ -113,26 +176,9 @@ private:
         return sums;
     }
 
-    /// The knot before the offset, and which part of the way to the next one it is on.
-    std::pair<std::size_t, double> place_of(double offset) const {
-        const auto after = std::upper_bound(knots_.begin() + 1, knots_.end() - 1, offset);
-        const auto knot = static_cast<std::size_t>(after - knots_.begin()) - 1;
-        return {knot, (offset - knots_[knot]) / (knots_[knot + 1] - knots_[knot])};
-    }
-
-    std::span<const ColorSample> samples_;
-    std::span<const double> offsets_;
-    double tolerance_;
-    std::vector<double> knots_;
-    std::vector<std::size_t> sample_of_knot_;
+    std::vector<Along> along_; ///< the samples, by offset
+    std::vector<Knot> knots_;
 };
-
-double largest_error(std::span<const ColorSample> samples, const Gradient& gradient) {
-    double largest = 0;
-    for (const ColorSample& sample : samples)
-        largest = std::max(largest, error_of(sample, color_at(gradient, sample.point)));
-    return largest;
-}
 
 /// The gradient of that shape with the stops that fit best: more and more of them,
 /// until the error is within the tolerance or more do not help.
@@ -140,24 +186,26 @@ FittedPaint with_stops(Gradient gradient, std::span<const ColorSample> samples, 
     constexpr std::size_t most_stops = 16;
     constexpr int patience = 4;
 
-    std::vector<double> offsets(samples.size());
-    for (std::size_t i = 0; i < samples.size(); ++i)
-        offsets[i] = gradient_offset(gradient, samples[i].point);
-    Profile profile(samples, offsets, tolerance);
+    Profile profile(gradient, samples, tolerance);
     FittedPaint best;
     best.error = 2; // more than any
+    if (!profile.has_extent())
+        return best;
     for (int in_vain = 0; in_vain < patience; ++in_vain) {
-        gradient.stops = profile.stops();
-        const double error = largest_error(samples, gradient);
+        std::vector<GradientStop> stops = profile.stops();
+        const double error = profile.largest_error(stops);
+        const bool is_full = stops.size() >= most_stops;
         if (error < 0.9 * best.error)
             in_vain = 0;
         if (error < best.error) {
-            best.gradient = gradient;
+            gradient.stops = std::move(stops);
             best.error = error;
         }
-        if (error <= tolerance || gradient.stops.size() >= most_stops || !profile.add_knot())
+        if (error <= tolerance || is_full || !profile.add_knot())
             break;
     }
+    if (!gradient.stops.empty())
+        best.gradient = std::move(gradient);
     return best;
 }
 
@@ -334,10 +382,15 @@ std::optional<Ellipses> level_ellipses(std::span<const ColorSample> samples, dou
 } // namespace
 
 ColorSample color_sample(DrawingPoint point, const ColorField& field, double within) {
+    return color_sample({point, field(point)}, field, within);
+}
+
+ColorSample color_sample(const PointColor& at, const ColorField& field, double within) {
+    const auto [point, color] = at;
     // Of three directions, two are never along a level, and one leads in from any border.
     const double side = std::sqrt(0.75);
     const DrawingPoint ways[] = {{1, 0}, {-0.5, side}, {-0.5, -side}};
-    ColorSample sample = {point, field(point)};
+    ColorSample sample = {point, color};
     for (const DrawingPoint way : ways) {
         const Color there = field({point.x + within * way.x, point.y + within * way.y});
         const Color change = there - sample.color;

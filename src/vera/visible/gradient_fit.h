@@ -26,6 +26,15 @@ struct ColorSample {
 /// The sample at the point. Its slack is how much the field changes within that many pixels.
 ColorSample color_sample(DrawingPoint point, const ColorField& field, double within);
 
+/// A point, and the colour there.
+struct PointColor {
+    DrawingPoint point;
+    Color color;
+};
+
+/// The same where the colour at the point is known.
+ColorSample color_sample(const PointColor& at, const ColorField& field, double within);
+
 /// The samples at the points.
 std::vector<ColorSample>
 color_samples(std::span<const DrawingPoint> points, const ColorField& field, double within);

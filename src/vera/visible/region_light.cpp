@@ -23,6 +23,13 @@ void turn_towards_viewer(SurfacePoint& surface, Vec3 ray_direction, bool shows_o
     surface.geometric_normal = surface.shading_normal = normalized(across + slight * towards);
 }
 
+/// Whether the normal is interpolated.
+bool is_patch(const PrimitivePath& path) {
+    const Item& item = path.geometry->items[path.element.item];
+    return item.kind == ItemKind::patch
+        || (item.kind == ItemKind::mesh && !path.geometry->meshes[item.index].normals.empty());
+}
+
 } // namespace
 
 RegionLight::RegionLight(
@@ -45,15 +52,22 @@ RegionLight::RegionLight(
           facets.corners[facet_.corners[2]] - corner_)))
     , lights_(lights) {
     const ItemKind kind = path_.geometry->items[path_.element.item].kind;
-    is_curved_ = kind == ItemKind::sphere || kind == ItemKind::rotational_shape;
+    if (kind == ItemKind::sphere || kind == ItemKind::rotational_shape)
+        curved_.emplace(path_, facet_.piece);
     convexity_ = convexity(path_, facet_.piece);
     shows_outside_ =
         dot(normal_,
             camera.projection == Camera::Projection::parallel ? camera.direction
                                                               : corner_ - camera.viewpoint)
         < 0;
-    if (convexity_ == Convexity::none)
+    if (convexity_ == Convexity::none) {
+        const Vec3 corner = transformed_point(path_.from_world, corner_);
+        if (curved_)
+            parameter_ = curved_->parameter_near(corner);
+        else if (!is_patch(path_))
+            flat_normal_ = surface_within(path_, facet_.piece, corner).geometric_normal;
         return;
+    }
     for (std::size_t i = first_facet; i < facets.triangles.size(); ++i) {
         const Facets::Triangle& facet = facets.triangles[i];
         if (facet.primitive != facet_.primitive || facet.piece != facet_.piece)
@@ -75,40 +89,48 @@ Color RegionLight::operator()(DrawingPoint point) const {
     return clamped(sum(terms));
 }
 
+SurfacePoint RegionLight::at(Vec3 point, Vec3 local_normal) const {
+    SurfacePoint surface;
+    surface.point = point;
+    surface.geometric_normal = surface.shading_normal = path_.in_main_scene
+        ? local_normal
+        : normalized(transposed_times(path_.from_world.linear, local_normal));
+    return surface;
+}
+
 SurfacePoint RegionLight::on_facet(const Ray& ray) const {
     const double speed = dot(normal_, ray.direction);
     const double t = speed == 0 ? dot(corner_ - ray.origin, ray.direction)
                                 : dot(normal_, corner_ - ray.origin) / speed;
-    const Vec3 place = transformed_point(path_.from_world, point_at(ray, t));
-    SurfacePoint surface = carried_to_main_scene(path_, surface_within(path_, facet_.piece, place));
-    if (is_curved_)
+    const Vec3 point = point_at(ray, t);
+    if (flat_normal_)
+        return at(point, *flat_normal_);
+    const Vec3 place = transformed_point(path_.from_world, point);
+    double parameter = parameter_;
+    const std::optional<Vec3> normal =
+        curved_ ? curved_->normal_near(place, parameter) : std::nullopt;
+    SurfacePoint surface = normal
+        ? at(point, *normal)
+        : carried_to_main_scene(path_, surface_within(path_, facet_.piece, place));
+    if (curved_)
         turn_towards_viewer(surface, ray.direction, speed < 0);
     return surface;
 }
 
-/// Goes from beyond all that is seen to where the ray meets the convex body, from plane to plane:
-/// that which touches the body nearest to where one is does not cut it, so that one never comes too
-/// far. (Newton's method. It converges slowly only where the ray all but misses.)
 SurfacePoint RegionLight::on_body(const Ray& ray) const {
-    constexpr int most_steps = 40;
-    constexpr double nearest = 1e-6; // of the reach, and of the last step, which squares it
     const bool enters = shows_outside_ == (convexity_ == Convexity::outwards);
-    const double forward = enters ? 1 : -1;
-    const double turned = convexity_ == Convexity::outwards ? 1 : -1;
-    const Ray local = transformed_ray(path_.from_world, ray);
     // Not quite from a place that a scene of round numbers might have on an axis.
-    double t = dot(corner_ - ray.origin, ray.direction) - 1.0127 * forward * reach_;
-    SurfacePoint surface = surface_within(path_, facet_.piece, point_at(local, t));
-    for (int i = 0; i < most_steps; ++i) {
-        const Vec3 outwards = turned * surface.geometric_normal;
-        const double off = dot(outwards, point_at(local, t) - surface.point);
-        const double speed = -forward * dot(outwards, local.direction);
-        if (!(speed > 0 && off > nearest * speed * reach_))
-            break;
-        t += forward * off / speed;
-        surface = surface_within(path_, facet_.piece, point_at(local, t));
-    }
-    surface = carried_to_main_scene(path_, surface);
+    const double middle = dot(corner_ - ray.origin, ray.direction);
+    const double reach = 1.0127 * reach_;
+    const Ray local = transformed_ray(path_.from_world, ray);
+    SurfacePoint surface;
+    if (const auto met = curved_->meeting(local, {middle - reach, middle + reach, enters}))
+        surface = at(point_at(ray, met->t), met->normal);
+    else
+        surface = carried_to_main_scene(
+            path_,
+            meeting_by_planes(
+                path_, facet_.piece, local, {middle - reach, middle + reach, enters}));
     turn_towards_viewer(surface, ray.direction, shows_outside_);
     return surface;
 }

@@ -9,10 +9,12 @@
 #include "vera/scene/scene.h"
 #include "vera/scene/surface.h"
 #include "vera/visible/convex_piece.h"
+#include "vera/visible/curved_piece.h"
 #include "vera/visible/screen_scene.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 namespace vera {
 
@@ -40,6 +42,7 @@ public:
 private:
     SurfacePoint on_facet(const Ray& ray) const;
     SurfacePoint on_body(const Ray& ray) const;
+    SurfacePoint at(Vec3 point, Vec3 local_normal) const;
 
     const Scene& scene_;
     ViewRays rays_;
@@ -51,7 +54,9 @@ private:
     Vec3 corner_;
     Vec3 normal_; ///< of the facet's plane, unit, towards the outside
     bool shows_outside_ = true;
-    bool is_curved_ = false;
+    std::optional<Vec3> flat_normal_; ///< that of all places, in the primitive's coordinates
+    std::optional<CurvedPiece> curved_;
+    double parameter_ = 0; ///< of a curved piece, near to the facet
     Convexity convexity_ = Convexity::none;
     double reach_ = 0; ///< of a convex piece: all that is seen of it is that near to the corner
     LightSet lights_;

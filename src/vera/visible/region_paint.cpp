@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
+#include <functional>
 #include <iterator>
 #include <optional>
 #include <span>
@@ -115,7 +116,7 @@ private:
     static constexpr double shortest_cut = 1;       ///< pixels
     static constexpr double overlap = 1;            ///< pixels
     static constexpr int most_cuts = 16;            ///< one after the other
-    static constexpr std::uint64_t most_rounds = 3; ///< of places added to samples
+    static constexpr std::uint64_t most_rounds = 6; ///< of places added to samples
 
     static constexpr std::size_t enough_off = 200; ///< places added in a round, at most
 
@@ -148,8 +149,7 @@ private:
         }
         const double spacing = std::max(closest, 0.35 * fine);
         for (std::uint64_t round = 0; fits(best); ++round) {
-            const std::vector<ColorSample> off =
-                where_off(best, region, spacing, places_to_check(region, best, spacing, round));
+            const std::vector<ColorSample> off = where_off(best, region, spacing, round);
             if (off.empty())
                 break;
             samples.insert(samples.end(), off.begin(), off.end());
@@ -172,55 +172,69 @@ private:
     ColorSample sample_at(DrawingPoint point) const {
         // Only where colours change fast is there a silhouette that asks for it.
         constexpr double fast = 3.0 / 255;
-        if (near_border_.includes(point))
-            if (ColorSample sample = color_sample(point, field_, tolerance_.at_border);
+        const PointColor at = {point, field_(point)};
+        if (tolerance_.at_border != tolerance_.within && near_border_.includes(point))
+            if (ColorSample sample = color_sample(at, field_, tolerance_.at_border);
                 sample.slack > fast)
                 return sample;
-        return color_sample(point, field_, tolerance_.within);
+        return color_sample(at, field_, tolerance_.within);
     }
 
-    /// Points so far apart or, where the paint is steep, a quarter of that: what lies between two
-    /// stops of very different colours is known at these alone.
-    static std::vector<DrawingPoint> places_to_check(
-        const PaintedRegion& region,
-        const FittedPaint& paint,
-        double spacing,
-        std::uint64_t round) {
-        std::vector<DrawingPoint> places = scattered_points(region.rings, spacing, round);
-        if (!paint.gradient || !may_be_steep(*paint.gradient, spacing))
-            return places;
-        constexpr double closest = 0.2; // pixels
-        constexpr double part = 0.25;
-        for (const DrawingPoint point : scattered_points(
-                 region.rings, std::max(part * spacing, closest), most_rounds + 1 + round))
-            if (is_steep(paint, point, spacing))
-                places.push_back(point);
-        return places;
-    }
+    /// A point, and how far off the paint is there, slack or not.
+    struct Place {
+        DrawingPoint point;
+        double error = 0;
+    };
 
-    /// Samples at some of the places where the paint does not fit, of the points and of the worst
-    /// ones nearby, which are searched for where it is not far from that; at none only if it fits
-    /// everywhere.
+    /// Samples at some of the places where the paint does not fit: at none only if it fits
+    /// everywhere. It is looked at in points so far apart; if it fits there, where it is steep in
+    /// points a quarter of that apart, since what lies between two stops of very different colours
+    /// is known at these alone; if it fits there too, in the worst places near to those where it is
+    /// not far from that.
     std::vector<ColorSample> where_off(
         const FittedPaint& paint,
         const PaintedRegion& region,
         double spacing,
-        const std::vector<DrawingPoint>& points) const {
-        constexpr double much = 0.7; // of the tolerance
+        std::uint64_t round) const {
+        std::vector<Place> all;
+        const auto look_at = [&](const std::vector<DrawingPoint>& points) {
+            stop_if_raised(cancel_);
+            const auto first = static_cast<std::ptrdiff_t>(all.size());
+            for (const DrawingPoint point : points)
+                all.push_back({point, error_of(paint, {point, field_(point)})});
+            return samples_off(paint, std::span(all.begin() + first, all.end()));
+        };
+        std::vector<ColorSample> off = look_at(scattered_points(region.rings, spacing, round));
+        if (off.empty() && paint.gradient && may_be_steep(*paint.gradient, spacing))
+            off = look_at(steep_points(paint, region, spacing, round));
+        if (off.empty())
+            off = samples_off(paint, worst_places(paint, region, spacing, std::move(all)));
+        return off;
+    }
+
+    /// Points a quarter of that apart where the paint is steep.
+    static std::vector<DrawingPoint> steep_points(
+        const FittedPaint& paint,
+        const PaintedRegion& region,
+        double spacing,
+        std::uint64_t round) {
+        constexpr double closest = 0.2; // pixels
+        constexpr double part = 0.25;
+        std::vector<DrawingPoint> points = scattered_points(
+            region.rings, std::max(part * spacing, closest), most_rounds + 1 + round);
+        std::erase_if(points, [&](DrawingPoint point) { return !is_steep(paint, point, spacing); });
+        return points;
+    }
+
+    /// Samples at those places at which the paint is off, or at some of them: these tell the next
+    /// fit as much.
+    std::vector<ColorSample>
+    samples_off(const FittedPaint& paint, std::span<const Place> places) const {
         // The slack of a sample, which takes three times as long, matters at few.
         std::vector<DrawingPoint> doubtful;
-        std::optional<NearBorder> border;
-        for (const DrawingPoint point : points) {
-            Place worst = {point, error_of(paint, {point, field_(point)})};
-            if (worst.error > much * tolerance_.color && worst.error <= tolerance_of_samples()) {
-                if (!border)
-                    border.emplace(region.rings);
-                worst = worst_nearby(paint, *border, worst, spacing);
-            }
-            if (worst.error > tolerance_of_samples())
-                doubtful.push_back(worst.point);
-        }
-        // Where many are off, some of them tell the next fit as much.
+        for (const Place& place : places)
+            if (place.error > tolerance_of_samples())
+                doubtful.push_back(place.point);
         const std::size_t step = doubtful.size() / enough_off + 1;
         std::vector<ColorSample> off;
         for (std::size_t first = 0; first < step && off.empty(); ++first)
@@ -232,11 +246,38 @@ private:
         return off;
     }
 
-    /// A point, and how far off the paint is there, slack or not.
-    struct Place {
-        DrawingPoint point;
-        double error = 0;
-    };
+    /// The worst places near to those at which the paint is within the tolerance, but not by far.
+    std::vector<Place> worst_places(
+        const FittedPaint& paint,
+        const PaintedRegion& region,
+        double spacing,
+        std::vector<Place> places) const {
+        constexpr double much = 0.7; // of the tolerance
+        std::erase_if(places, [&](const Place& place) {
+            return place.error <= much * tolerance_.color || place.error > tolerance_of_samples();
+        });
+        if (places.empty())
+            return places;
+        const NearBorder border(region.rings);
+        std::vector<Place> worst;
+        for (const Place& place : worst_of_squares(std::move(places), spacing))
+            worst.push_back(worst_nearby(paint, border, place, spacing));
+        return worst;
+    }
+
+    /// Of the places in each square of that size the worst one.
+    static std::vector<Place> worst_of_squares(std::vector<Place> places, double size) {
+        const auto square_of = [&](const Place& place) {
+            return std::pair(std::floor(place.point.y / size), std::floor(place.point.x / size));
+        };
+        std::ranges::stable_sort(places, std::greater<>{}, &Place::error);
+        std::ranges::stable_sort(places, {}, square_of);
+        const auto in_one = [&](const Place& a, const Place& b) {
+            return square_of(a) == square_of(b);
+        };
+        places.erase(std::unique(places.begin(), places.end(), in_one), places.end());
+        return places;
+    }
 
     /// Goes to where the paint is farther off as long as there is such a place beside and it is
     /// within the tolerance, in smaller and smaller steps (Hooke and Jeeves 1961).
