@@ -24,7 +24,7 @@ LARGEST = {".png": 150_000, ".svg": 350_000}
 
 LINES = ["--style", "lines", "--precision", "0.1", "--line", "silhouette:width=1.1",
          "--line", "crease:width=0.5"]
-SHADED = ["--style", "shaded", "--deviation", "0.5", "--precision", "0.1", "--color-tolerance", "6"]
+SHADED = ["--style", "shaded", "--deviation", "0.25", "--precision", "0.1"]
 
 # For leaves by the thousand.
 THIN = ["--style", "lines", "--precision", "0.1", "--line", "silhouette:width=0.5",
@@ -34,7 +34,8 @@ COARSE = ["--style", "shaded", "--deviation", "2", "--precision", "0.1", "--colo
 
 # The figure, its title, the scene, the raster, the drawing's options, and what there is to see.
 FIGURES = [
-    ("1f", "The principle of ray tracing", "principle", "480x320", SHADED,
+    ("1f", "The principle of ray tracing", "principle", "480x320",
+     [*SHADED, "--color-tolerance", "4"],
      "From the eye a ray (blue) goes through a pixel of the screen. Where it meets the ball, one ray (yellow) asks whether the "
      "light is hidden, and another (orange) goes on in the mirror direction, to where the same begins again. The scene is made "
      "for drawings: the rays are cylinders and cones."),

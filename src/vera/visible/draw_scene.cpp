@@ -327,7 +327,8 @@ DrawnScene drawn_scene(Request request) {
     drawn.cut_nearness = seen.screen.cut_nearness;
     drawn.cut_rounds = static_cast<std::size_t>(seen.whole.rounds - 1);
     drawn.penetrating = seen.whole.left;
-    if (has_shadows(request.scene, request.picture, settings)) {
+    const bool with_shadows = has_shadows(request.scene, request.picture, settings);
+    if (with_shadows) {
         drawn.shadows = see_shadows(request, seen);
         drawn.lights_without_shadows = lights - std::min<std::size_t>(lights, most_lights_of_a_set);
     }
@@ -335,8 +336,11 @@ DrawnScene drawn_scene(Request request) {
     join_faces(request, seen);
     VisibleMap map = map_of(request, seen, of_map);
     drawn.visible_faces = count_seen_faces(map);
-    drawn.longest_join = map.longest_join / screen_size
-        * static_cast<double>(std::max(request.picture.width, request.picture.height));
+    // At borders of shadows surfaces part what is seen along lines a step from each other: there a
+    // long way is off by no more than that.
+    if (!with_shadows)
+        drawn.longest_join = map.longest_join / screen_size
+            * static_cast<double>(std::max(request.picture.width, request.picture.height));
     if (settings.check)
         settings.check(
             {map,

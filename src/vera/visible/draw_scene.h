@@ -38,7 +38,7 @@ struct DrawnScene {
     std::size_t visible_faces = 0;
     std::size_t cut_rounds = 0;  ///< how often what passes through other things was cut
     std::size_t penetrating = 0; ///< pairs of facets that still do: 0 but in the worst tangles
-    double longest_join = 0;     ///< as that of the map, in pixels
+    double longest_join = 0;     ///< as that of the map, in pixels; 0 with shadows
     double cut_nearness = 0; ///< what is so near the view point was left out, by the distance of
                              ///< the image plane; 0: nothing
     ShadowCounts shadows;    ///< nothing where none are drawn
