@@ -212,6 +212,47 @@ TEST(RegionPaint, IsWithinTheToleranceNearBorders) {
     EXPECT_EQ(off, 0);
 }
 
+/// A drawing rounds the corners of parts, which are not the same on both sides of a cut.
+TEST(RegionPaint, LeavesNoGapBetweenPartsWhoseCornersAreRounded) {
+    constexpr double size = 40;
+    constexpr double precision = 0.1;
+    PaintedRegion region;
+    region.rings = {{{0, 0}, {size, 0}, {size, size}, {0, size}}};
+    const ColorField field = [](DrawingPoint at) {
+        const double far = std::hypot(at.x - 13.7, 1.3 * at.y - 21.2 + 0.3 * at.x);
+        const double wave = far / (20 + far);
+        return Color{0.1 + 0.8 * wave, 0.8 - 0.6 * wave * wave, 0.2 + 0.003 * at.y};
+    };
+    auto fills = painted(region, field, {});
+    EXPECT_GT(fills.size(), 20U);
+    for (FilledOutline& fill : fills)
+        for (std::vector<DrawingPoint>& ring : fill.rings)
+            for (DrawingPoint& point : ring)
+                point = {
+                    precision * std::round(point.x / precision),
+                    precision * std::round(point.y / precision)};
+    int places = 0;
+    int gaps = 0;
+    for (const FilledOutline& fill : fills)
+        for (const std::vector<DrawingPoint>& ring : fill.rings)
+            for (std::size_t i = 0; i < ring.size(); ++i) {
+                const DrawingPoint from = ring[i];
+                const DrawingPoint to = ring[(i + 1) % ring.size()];
+                for (const double part : {0.13, 0.31, 0.57, 0.83})
+                    for (const double aside : {-0.04, -0.02, 0.02, 0.04}) {
+                        const DrawingPoint at = {
+                            from.x + part * (to.x - from.x) + aside,
+                            from.y + part * (to.y - from.y) + 0.7 * aside};
+                        if (std::min({at.x, at.y, size - at.x, size - at.y}) < precision)
+                            continue;
+                        ++places;
+                        gaps += testing::painted_color(fills, at) ? 0 : 1;
+                    }
+            }
+    EXPECT_GT(places, 2000);
+    EXPECT_EQ(gaps, 0);
+}
+
 TEST(RegionPaint, SeesBendsAlongRowsAndColumns) {
     Off off;
     for (const bool along_rows : {false, true})

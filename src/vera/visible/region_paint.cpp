@@ -102,9 +102,11 @@ public:
         }
         const HalfPlane rest = other_side(*half);
         PaintedRegion first = part_of(region, *half, moved(*half, overlap));
-        // It goes on below the other part, which is painted later.
+        // It goes on below the other part, which is painted later, in a strip that begins on its
+        // own side of the cut: if the two only met there, a gap might be left, as corners are
+        // rounded.
         std::ranges::move(
-            cut_rings(cut_rings(region.rings, rest), moved(*half, overlap)),
+            cut_rings(cut_rings(region.rings, moved(rest, overlap)), moved(*half, overlap)),
             std::back_inserter(first.below));
         paint(std::move(first), cuts + 1);
         paint(part_of(region, rest, rest), cuts + 1);
