@@ -202,7 +202,7 @@ TEST(DrawScene, EveryStageEndsThatIsTooLongToWaitFor) {
         },
         [&] { sort_by_place(screen, &raised); },
         [&] { cell_raster(screen, {}, &raised); },
-        [&] { cell_raster_after({}, pieces, screen, {}, &raised); },
+        [&] { cell_raster_after({}, {}, pieces, screen, {}, &raised); },
         [&] { whole_pieces(screen, {}, &raised, VisibilityEngine::sweep); },
         [&] { cut_penetrations(screen, std::vector(1, std::pair(0U, 1U)), &raised); },
         [&] { visible_map(screen, pieces, {}, &raised); },

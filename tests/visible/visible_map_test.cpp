@@ -179,7 +179,7 @@ TEST(VisiblePieces, OfACutSceneAreThoseThatWereKeptAndThoseNearTheCuts) {
         for (int round = 0; round < 3 && !pieces.penetrating.empty(); ++round, ++rounds) {
             const SceneChange change = cut_penetrations(scene, pieces.penetrating);
             kept += change.triangles.size() < scene.triangles.size() / 2 ? 1 : 0;
-            pieces = cell_raster_after(change, std::move(pieces), scene);
+            pieces = cell_raster_after(change, {}, std::move(pieces), scene);
             expect_same_pieces(pieces, cell_raster(scene), "seed " + std::to_string(seed));
         }
     }
@@ -211,7 +211,7 @@ TEST(VisiblePieces, OfASceneWithShadowsAreThoseThatWereKeptAndThoseNearThem) {
         for (std::size_t i = surfaces; i < scene.triangles.size(); ++i)
             change.triangles.push_back(static_cast<std::uint32_t>(i));
         expect_same_pieces(
-            cell_raster_after(change, std::move(before), scene),
+            cell_raster_after(change, {}, std::move(before), scene),
             cell_raster(scene),
             "seed " + std::to_string(seed));
     }
@@ -630,7 +630,7 @@ TEST(VisiblePieces, AmongAllAreThoseFoundWithoutWhatIsHidden) {
         std::vector<PackedPoint> near;
         for (std::size_t i = 0; i < found.points.size(); i += 1 + seed % 5)
             near.push_back(found.points[i]);
-        const VisiblePieces again = cell_raster_among_all(near, found, scene);
+        const VisiblePieces again = cell_raster_after({{}, {}, near}, near, found, scene);
         EXPECT_TRUE(again.penetrating.empty()) << seed;
         EXPECT_TRUE(testing::maximal_pieces(scene, again) == testing::maximal_pieces(scene, found))
             << seed;

@@ -14,31 +14,29 @@ namespace vera {
 
 namespace {
 
-/// Which cells are touched by what was changed, or were.
-std::vector<std::uint8_t>
-cells_of_change(const SceneChange& change, const CellRaster& raster, const Cells& cells) {
-    std::vector<std::uint8_t> is_changed(cells.blocked.size());
-    const auto mark = [&](const std::array<ScreenVertex, 3>& corners) {
-        for_each_cell_of(cells, corners, [&](std::size_t cell) { is_changed[cell] = 1; });
-    };
-    for (const std::uint32_t triangle : change.triangles)
-        mark(corners_of(raster.scene, raster.scene.triangles[triangle]));
-    for (const std::array<ScreenVertex, 3>& corners : change.places)
-        mark(corners);
-    return is_changed;
-}
-
-/// Which cells are those of the points, of several where one lies on a border.
-std::vector<std::uint8_t> cells_of_points(std::span<const PackedPoint> points, const Cells& cells) {
-    std::vector<std::uint8_t> is_asked(cells.blocked.size());
+/// Calls visit(cell) for the cells of the points, several where one lies on a border.
+template <typename Visit>
+void for_each_cell_of_points(
+    std::span<const PackedPoint> points, const Cells& cells, const Visit& visit) {
     for (const PackedPoint& packed : points) {
         const ScreenPoint whole = RationalPoint(packed).whole;
         for (const std::int32_t x : {whole.x - 1, whole.x + 1})
             for (const std::int32_t y : {whole.y - 1, whole.y + 1})
-                is_asked[cells.number(
-                    cells.cell_of(std::max(x, 0)), cells.cell_of(std::max(y, 0)))] = 1;
+                visit(cells.number(cells.cell_of(std::max(x, 0)), cells.cell_of(std::max(y, 0))));
     }
-    return is_asked;
+}
+
+/// Which cells are touched by what was changed, or were.
+std::vector<std::uint8_t>
+cells_of_change(const SceneChange& change, const CellRaster& raster, const Cells& cells) {
+    std::vector<std::uint8_t> is_changed(cells.blocked.size());
+    const auto mark = [&](std::size_t cell) { is_changed[cell] = 1; };
+    for (const std::uint32_t triangle : change.triangles)
+        for_each_cell_of(cells, corners_of(raster.scene, raster.scene.triangles[triangle]), mark);
+    for (const std::array<ScreenVertex, 3>& corners : change.places)
+        for_each_cell_of(cells, corners, mark);
+    for_each_cell_of_points(change.asked, cells, mark);
+    return is_changed;
 }
 
 /// Which edges lie in one of the cells.
@@ -134,6 +132,7 @@ VisiblePieces cell_raster(
 
 VisiblePieces cell_raster_after(
     const SceneChange& change,
+    std::span<const PackedPoint> open,
     VisiblePieces before,
     const ScreenScene& scene,
     const Progress& progress,
@@ -152,7 +151,12 @@ VisiblePieces cell_raster_after(
     {
         const AskedOfRaster asked = [&](CellRaster& of, const Cells& cells) {
             of.is_near_change = edges_in(cells_of_change(change, of, cells), of, cells);
-            return cells_along(of.is_near_change, of, cells);
+            std::vector<std::uint8_t> asked_cells = cells_along(of.is_near_change, of, cells);
+            for_each_cell_of_points(open, cells, [&](std::size_t cell) {
+                if (asked_cells[cell] != not_asked)
+                    asked_cells[cell] = asked_with_hidden;
+            });
+            return asked_cells;
         };
         CellRaster raster = raster_of(scene, asked, progress, cancel);
         free_room(raster.cells.blocked);
@@ -177,22 +181,6 @@ VisiblePieces cell_raster_after(
             result.penetrating.emplace_back(a, b);
     sort_pairs(result.penetrating);
     return result;
-}
-
-VisiblePieces cell_raster_among_all(
-    std::span<const PackedPoint> points,
-    VisiblePieces before,
-    const ScreenScene& scene,
-    const CancelFlag* cancel) {
-    const AskedOfRaster asked = [&](CellRaster& of, const Cells& cells) {
-        of.is_near_change = edges_in(cells_of_points(points, cells), of, cells);
-        return cells_along(of.is_near_change, of, cells);
-    };
-    const CellRaster raster = raster_of(scene, asked, {}, cancel, Hiding::by_nothing);
-    std::vector<VisiblePieces> parts;
-    follow_edges(raster, 0, raster.edges.edges.size(), {}, cancel, parts);
-    keep_pieces(kept_pieces(raster, before.pieces), before);
-    return merged(std::move(before), joined(std::move(parts)));
 }
 
 } // namespace vera

@@ -67,25 +67,20 @@ VisiblePieces cell_raster(
 struct SceneChange {
     std::vector<std::uint32_t> triangles;            ///< that are new, or other ones than before
     std::vector<std::array<ScreenVertex, 3>> places; ///< where the others were that are no more
+    std::vector<PackedPoint> asked; ///< near which nothing was changed, but all is asked again
 };
 
-/// As cell_raster() of the changed scene, but follows only the edges near what was changed.
-/// `before` are the pieces of the scene before; whichever lights reached a source nowhere then.
+/// As cell_raster() of the changed scene, but follows only the edges near what was changed. Near
+/// the open points nothing is left out of what lies beside these, however surely something else
+/// hides it. `before` are the pieces of the scene before; whichever lights reached a source nowhere
+/// then.
 VisiblePieces cell_raster_after(
     const SceneChange& change,
+    std::span<const PackedPoint> open,
     VisiblePieces before,
     const ScreenScene& scene,
     const Progress& progress = {},
     const CancelFlag* cancel = nullptr,
     const ExpectPieces& expect = {});
-
-/// The pieces before, but of edges that pass near one of the points those that are found when
-/// nothing is left out of what lies beside them, however surely something else hides it. Throws
-/// Cancelled.
-VisiblePieces cell_raster_among_all(
-    std::span<const PackedPoint> points,
-    VisiblePieces before,
-    const ScreenScene& scene,
-    const CancelFlag* cancel = nullptr);
 
 } // namespace vera

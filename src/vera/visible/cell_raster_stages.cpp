@@ -115,8 +115,7 @@ CellRaster raster_of(
     const ScreenScene& scene,
     const AskedOfRaster& asked,
     const Progress& progress,
-    const CancelFlag* cancel,
-    Hiding hiding) {
+    const CancelFlag* cancel) {
     StageProgress stages(progress_between(progress, 0, part_of_preparation), 6);
     const auto next_stage = [&] {
         stop_if_raised(cancel);
@@ -124,7 +123,7 @@ CellRaster raster_of(
     };
     next_stage();
     require_raster_memory(scene);
-    CellRaster raster = {scene, slopes_of(scene), {}, {}, {}, {}, {}, 0, {}, {}, {}, hiding};
+    CellRaster raster = {scene, slopes_of(scene), {}, {}, {}, {}, {}, 0, {}, {}, {}};
     add_corners(raster);
     next_stage();
     raster.edges = screen_edges(scene);
@@ -141,16 +140,12 @@ CellRaster raster_of(
     if (asked)
         asked_cells = [&](const Cells& cells) { return asked(raster, cells); };
     const SheetScene sheets = {scene, raster.edges, neighbours, raster.slopes};
-    raster.cells = cells_of(scene, raster.slopes, cancel, asked_cells, &sheets, hiding);
+    raster.cells = cells_of(scene, raster.slopes, cancel, asked_cells, &sheets);
     next_stage();
-    if (hiding == Hiding::by_what_covers)
-        block_by_sheets(raster.cells, sheets, cancel);
+    block_by_sheets(raster.cells, sheets, cancel);
     raster.shadow_cells = shadow_cells_of(raster.cells, scene, raster.slopes, cancel);
     next_stage();
-    if (hiding == Hiding::by_what_covers)
-        hide_edges(raster, 0, 0, HiddenSquares(raster.cells), cancel);
-    else
-        raster.hidden_eighths.resize(raster.edges.edges.size());
+    hide_edges(raster, 0, 0, HiddenSquares(raster.cells), cancel);
     return raster;
 }
 

@@ -21,7 +21,8 @@ namespace vera {
 /// How much of the time goes into what all edges are compared with.
 constexpr double part_of_preparation = 0.2;
 
-/// Tells, when edges are known and cells have no lists yet, which cells are asked for.
+/// Tells, when edges are known and cells have no lists yet, which cells are asked
+/// for, as AskedCell.
 using AskedOfRaster = std::function<std::vector<std::uint8_t>(CellRaster&, const Cells&)>;
 
 /// What all edges of the scene are compared with.
@@ -29,8 +30,7 @@ CellRaster raster_of(
     const ScreenScene& scene,
     const AskedOfRaster& asked,
     const Progress& progress,
-    const CancelFlag* cancel,
-    Hiding hiding = Hiding::by_what_covers);
+    const CancelFlag* cancel);
 
 /// The cells along the edges that are asked for.
 std::vector<std::uint8_t> cells_along(

@@ -56,8 +56,7 @@ public:
         std::span<const NearnessSlope> slopes,
         const CancelFlag* cancel,
         const AskedCells& asked,
-        const SheetScene* sheets,
-        Hiding hiding);
+        const SheetScene* sheets);
 
     Cells cells();
 
@@ -99,6 +98,7 @@ private:
     void find_reaches(const IsAsked& is_asked);
     void block(Cells& cells) const;
     void block_by_large_sheets(Cells& cells) const;
+    void unblock(Cells& cells) const;
     void leave_out_hidden(const Cells& cells);
     std::uint64_t count(Cells& cells);
 
@@ -107,8 +107,7 @@ private:
     const CancelFlag* cancel_;
     const AskedCells& asked_;
     const SheetScene* sheets_;
-    Hiding hiding_;
-    std::vector<std::uint8_t> is_asked_; ///< of cells; empty: all are
+    std::vector<std::uint8_t> asked_cells_; ///< as AskedCell; empty: all are asked for
     std::vector<std::uint8_t> matters_; ///< of triangles, whether they may be in such a cell's list
     std::vector<double> nearness_;      ///< of triangles, for hiding
     std::vector<Reach> reaches_;        ///< of groups, of the triangles near cells asked for
@@ -119,14 +118,12 @@ CellLists::CellLists(
     std::span<const NearnessSlope> slopes,
     const CancelFlag* cancel,
     const AskedCells& asked,
-    const SheetScene* sheets,
-    Hiding hiding)
+    const SheetScene* sheets)
     : scene_(scene)
     , slopes_(slopes)
     , cancel_(cancel)
     , asked_(asked)
     , sheets_(sheets)
-    , hiding_(hiding)
     , matters_(scene.triangles.size())
     , nearness_(scene.triangles.size())
     , reaches_((scene.triangles.size() + group - 1) / group) {
@@ -226,14 +223,15 @@ void CellLists::find_reaches(const IsAsked& is_asked) {
 void CellLists::ask(const Cells& cells) {
     if (!asked_)
         return find_reaches([](const auto&) { return true; });
-    is_asked_ = asked_(cells);
+    asked_cells_ = asked_(cells);
     // Row by row, how many of the row are asked for before each of its cells, and before its end.
     const auto per_side = static_cast<std::size_t>(cells.per_side);
     std::vector<std::uint32_t> before(per_side * (per_side + 1));
     for (std::size_t row = 0; row < per_side; ++row)
         for (std::size_t column = 0; column < per_side; ++column) {
             const std::size_t place = row * (per_side + 1) + column;
-            before[place + 1] = before[place] + is_asked_[row * per_side + column];
+            before[place + 1] =
+                before[place] + (asked_cells_[row * per_side + column] == not_asked ? 0 : 1);
         }
     find_reaches([&](const std::array<ScreenVertex, 3>& corners) {
         const auto [left, right] =
@@ -288,12 +286,23 @@ void CellLists::block_by_large_sheets(Cells& cells) const {
     if (std::ranges::find(is_large, 1) == is_large.end())
         return;
     const auto does_matter = [&](std::size_t i, const auto&) { return is_large[i] != 0; };
-    Cells large = {cells.shift, cells.per_side, {}, {}, std::move(cells.blocked)};
+    Cells large = {cells.shift, cells.per_side, {}, {}, std::move(cells.blocked), {}};
     if (count_entries(large, does_matter) <= most_entries()) {
         fill_lists(large, does_matter);
         block_by_sheets(large, *sheets_, cancel_);
     }
     cells.blocked = std::move(large.blocked);
+}
+
+void CellLists::unblock(Cells& cells) const {
+    if (std::ranges::find(asked_cells_, asked_with_hidden) == asked_cells_.end())
+        return;
+    cells.hides_nothing.assign(asked_cells_.size(), 0);
+    for (std::size_t cell = 0; cell < asked_cells_.size(); ++cell)
+        if (asked_cells_[cell] == asked_with_hidden) {
+            cells.hides_nothing[cell] = 1;
+            cells.blocked[cell] = -1;
+        }
 }
 
 /// Of the triangles that matter, those that are hidden in all of their cells no more do.
@@ -319,13 +328,12 @@ std::uint64_t CellLists::count(Cells& cells) {
         static_cast<std::size_t>(cells.per_side) * static_cast<std::size_t>(cells.per_side);
     cells.blocked.assign(number, -1);
     ask(cells);
-    if (hiding_ == Hiding::by_what_covers)
-        block(cells);
-    for (std::size_t cell = 0; cell < is_asked_.size(); ++cell)
-        if (is_asked_[cell] == 0)
+    block(cells);
+    for (std::size_t cell = 0; cell < asked_cells_.size(); ++cell)
+        if (asked_cells_[cell] == not_asked)
             cells.blocked[cell] = std::numeric_limits<double>::infinity();
-    if (hiding_ == Hiding::by_what_covers)
-        block_by_large_sheets(cells);
+    block_by_large_sheets(cells);
+    unblock(cells);
     leave_out_hidden(cells);
     return count_entries(cells, is_surface());
 }
@@ -417,9 +425,8 @@ Cells cells_of(
     std::span<const NearnessSlope> slopes,
     const CancelFlag* cancel,
     const AskedCells& asked,
-    const SheetScene* sheets,
-    Hiding hiding) {
-    return CellLists(scene, slopes, cancel, asked, sheets, hiding).cells();
+    const SheetScene* sheets) {
+    return CellLists(scene, slopes, cancel, asked, sheets).cells();
 }
 
 Cells cells_of(const ScreenScene& scene, const CancelFlag* cancel) {

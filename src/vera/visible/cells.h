@@ -25,6 +25,7 @@ struct Cells {
     std::vector<std::uint32_t> triangles; ///< in ascending order within a cell
     /// What is less near, by its own hidden_margin(), is hidden everywhere in the cell.
     std::vector<double> blocked;
+    std::vector<std::uint8_t> hides_nothing; ///< of cells; empty: none is asked for so
 
     std::int32_t cell_of(std::int32_t coordinate) const {
         return std::min(coordinate >> shift, per_side - 1);
@@ -33,6 +34,10 @@ struct Cells {
     std::size_t number(std::int32_t column, std::int32_t row) const {
         return static_cast<std::size_t>(row) * static_cast<std::size_t>(per_side)
             + static_cast<std::size_t>(column);
+    }
+
+    bool hides_nothing_in(std::size_t cell) const {
+        return !hides_nothing.empty() && hides_nothing[cell] != 0;
     }
 
     std::span<const std::uint32_t> triangles_of(std::size_t cell) const {
@@ -117,7 +122,10 @@ void for_each_cell_of(
     });
 }
 
-/// Tells of cells, which have no lists yet, which ones are asked for.
+/// Of a cell, whether its list is asked for, and with what is hidden there.
+enum AskedCell : std::uint8_t { not_asked, asked_for, asked_with_hidden };
+
+/// Tells of cells, which have no lists yet, which ones are asked for, as AskedCell.
 using AskedCells = std::function<std::vector<std::uint8_t>(const Cells&)>;
 
 /// slopes[i] is that of triangle i. Where many triangles lie one behind the other
@@ -129,8 +137,7 @@ Cells cells_of(
     std::span<const NearnessSlope> slopes,
     const CancelFlag* cancel = nullptr,
     const AskedCells& asked = {},
-    const SheetScene* sheets = nullptr,
-    Hiding hiding = Hiding::by_what_covers);
+    const SheetScene* sheets = nullptr);
 
 /// The same where slopes are not needed otherwise.
 Cells cells_of(const ScreenScene& scene, const CancelFlag* cancel = nullptr);

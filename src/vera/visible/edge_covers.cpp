@@ -223,7 +223,7 @@ void EdgeSweep::find_hidden_parts() {
     std::erase_if(across_, [&](const Across& across) {
         const NearnessSlope& slope = raster_.slopes[across.triangle];
         const double margin = sure_margin(slope);
-        const bool hides = slope.at(ends[0]) - margin > to_hide[0]
+        const bool hides = open_parts_.empty() && slope.at(ends[0]) - margin > to_hide[0]
             && slope.at(ends[1]) - margin > to_hide[1] && !is_shadow(across.triangle);
         if (hides)
             add_across(across);
@@ -245,6 +245,28 @@ void EdgeSweep::find_hidden_parts() {
     }
     covers_.erase(last, covers_.end());
     last_hidden_ = covers_.size();
+}
+
+/// In cells that hide nothing.
+void EdgeSweep::find_open_parts() {
+    open_parts_.clear();
+    if (raster_.cells.hides_nothing.empty())
+        return;
+    const SegmentSlices slices(raster_.cells, begin_, end_);
+    const double begin = slices.along(begin_);
+    const double length = slices.along(end_) - begin;
+    slices.for_each([&](const CellSlice& slice) {
+        const bool hides = for_each_cell_of(
+            slice, [&](std::size_t cell) { return !raster_.cells.hides_nothing_in(cell); });
+        if (!hides) {
+            const auto place = [&](std::int64_t at) {
+                return (static_cast<double>(at) - begin) / length;
+            };
+            const auto [first, last] = std::minmax({place(slice.enters), place(slice.leaves)});
+            open_parts_.push_back({first, last});
+        }
+        return true;
+    });
 }
 
 /// Of what find_hidden_parts() found.
@@ -304,7 +326,8 @@ bool EdgeSweep::gather(std::uint32_t edge) {
     // What is left out where the edge is hidden must be found to be hidden, as it is below.
     const bool leaves_out = !are_there_shadows && shadowed != several_sources;
     classify_along(surfaces, all, leaves_out ? raster_.hidden_eighths[edge] : 0);
-    if (shadowed != several_sources && raster_.hiding == Hiding::by_what_covers) {
+    find_open_parts();
+    if (shadowed != several_sources) {
         find_hidden_parts();
         if (is_hidden(beginning, ending))
             return false;

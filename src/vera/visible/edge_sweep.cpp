@@ -149,7 +149,8 @@ void EdgeSweep::find_seen_sources(bool is_of_surfaces) {
         if (is_hidden_here_)
             continue;
         const std::size_t pairs = result_->penetrating.size();
-        const auto [left, right] = seen_between(here.value, events_[i].value, !is_of_surfaces);
+        const auto [left, right] =
+            seen_between(here.value, events_[i].value, Hiding::by_what_covers, !is_of_surfaces);
         // Where some pass through each other, others than those in the middle are seen as well.
         if (result_->penetrating.size() > pairs)
             for (const std::uint32_t cover : active_)
@@ -163,15 +164,24 @@ void EdgeSweep::find_seen_sources(bool is_of_surfaces) {
     seen_sources_.erase(last, seen_sources_.end());
 }
 
+/// What hides along the part between the places.
+Hiding EdgeSweep::hiding_between(double first, double last) const {
+    const bool is_open = std::ranges::any_of(open_parts_, [&](const std::array<double, 2>& part) {
+        return first <= part[1] && last >= part[0];
+    });
+    return is_open ? Hiding::by_nothing : Hiding::by_what_covers;
+}
+
 /// What is seen on the left and on the right between the places. Who does not always ask is told
 /// nothing where that is the same.
 std::array<const EdgeSweep::Cover*, 2>
-EdgeSweep::seen_between(double first, double last, bool asks_always) {
+EdgeSweep::seen_between(double first, double last, Hiding hiding, bool asks_always) {
     counts_.active += active_.size();
     if (!asks_always && !has_one_sided())
         return {};
-    seen_.start(place_at(first), place_at(last));
-    if (!asks_always && hidden_by_ != no_cover && is_still_hidden())
+    seen_.start(place_at(first), place_at(last), hiding);
+    if (!asks_always && hiding == Hiding::by_what_covers && hidden_by_ != no_cover
+        && is_still_hidden())
         return {};
     for (const std::uint32_t i : active_)
         seen_.add(covers_[i].triangle, covers_[i].sides);
@@ -198,13 +208,14 @@ EdgeSweep::Seen EdgeSweep::seen(const Cover* nearest, std::uint8_t side) const {
 
 /// Of several edges in one place that what is seen beside it has, one speaks for all: of those of
 /// the surfaces or, within a surface, of those of the shadows on it.
-bool EdgeSweep::speaks_here(std::uint32_t edge, const Cover* left, const Cover* right) const {
+bool EdgeSweep::speaks_here(
+    std::uint32_t edge, const Cover* left, const Cover* right, Hiding hiding) const {
     std::uint32_t first = no_edge;
     for (const Cover* cover : {left, right})
         if (cover != nullptr)
             first = std::min(first, cover->edge);
     // Where the order goes round, what ends here may decide between two others that do not.
-    if (first == no_edge && left != right && raster_.hiding == Hiding::by_nothing)
+    if (first == no_edge && left != right && hiding == Hiding::by_nothing)
         for (const std::uint32_t i : active_)
             first = std::min(first, covers_[i].edge);
     if (left == right && left != nullptr)
@@ -270,9 +281,10 @@ void EdgeSweep::follow(std::uint32_t edge, VisiblePieces& result) {
         }
         Piece piece = {place_of(here)};
         if (next < events_.size() && !is_hidden_here_) {
+            const Hiding hiding = hiding_between(here.value, events_[next].value);
             const auto [left, right] =
-                seen_between(here.value, events_[next].value, ends_a_shadow());
-            if (speaks_here(edge, left, right)) {
+                seen_between(here.value, events_[next].value, hiding, ends_a_shadow());
+            if (speaks_here(edge, left, right, hiding)) {
                 piece.left = seen(left, left_side);
                 piece.right = seen(right, right_side);
             }

@@ -31,7 +31,6 @@ struct CellRaster {
     std::vector<std::uint8_t> inner;
     std::vector<std::uint32_t> shadowed;
     std::vector<std::uint8_t> is_near_change; ///< of edges; empty: all are
-    Hiding hiding = Hiding::by_what_covers;   ///< as the cells were made
 
     /// Whether the edge is one between two parts of one shadow.
     bool is_inner(std::uint32_t edge) const {
@@ -67,7 +66,7 @@ public:
     explicit EdgeSweep(const CellRaster& raster)
         : raster_(raster)
         , may_be_shadow_(!raster.shadowed.empty())
-        , seen_(raster.scene, raster.slopes, raster.hiding)
+        , seen_(raster.scene, raster.slopes)
         , stamps_(raster.scene.triangles.size()) {}
 
     void follow(std::uint32_t edge, VisiblePieces& result);
@@ -118,6 +117,8 @@ private:
     };
 
     bool gather(std::uint32_t edge);
+    void find_open_parts();
+    Hiding hiding_between(double first, double last) const;
     template <typename List, typename DoesMatter>
     void classify_along(
         const List& list, const DoesMatter& does_matter, std::uint8_t hidden_eighths = 0);
@@ -142,9 +143,11 @@ private:
     bool ends_a_shadow_somewhere();
     void find_seen_sources(bool is_of_surfaces);
     Seen seen(const Cover* nearest, std::uint8_t side) const;
-    bool speaks_here(std::uint32_t edge, const Cover* left, const Cover* right) const;
+    bool
+    speaks_here(std::uint32_t edge, const Cover* left, const Cover* right, Hiding hiding) const;
     bool is_still_hidden() const;
-    std::array<const Cover*, 2> seen_between(double first, double last, bool asks_always);
+    std::array<const Cover*, 2>
+    seen_between(double first, double last, Hiding hiding, bool asks_always);
 
     const SegmentPlace& place_of(const Event& event) const {
         switch (event.kind) {
@@ -173,8 +176,9 @@ private:
     std::uint32_t stamp_ = 0;
     std::vector<Across> across_;
     std::vector<Cover> covers_;
-    std::vector<Cover> hidden_slices_;  ///< covers by no triangle
-    std::vector<SegmentPlace> touches_; ///< where a triangle has a corner on the edge
+    std::vector<Cover> hidden_slices_;              ///< covers by no triangle
+    std::vector<std::array<double, 2>> open_parts_; ///< places in cells that hide nothing
+    std::vector<SegmentPlace> touches_;             ///< where a triangle has a corner on the edge
     std::vector<Event> events_;
     std::vector<std::uint32_t> active_; ///< covers by surfaces
     std::vector<std::uint32_t> active_shadows_;

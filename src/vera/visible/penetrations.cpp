@@ -142,23 +142,20 @@ void replace_by_parts(
         change.triangles.push_back(static_cast<std::uint32_t>(i));
 }
 
-/// Closes ways round what is seen, until none is open or nothing new is; nothing is where that
-/// shows triangles that pass through each other. Where the order of three goes round, within what
-/// the grid did to them, the front is a matter of which of them are surely hidden along a part of
-/// an edge, and another edge of the same area may tell another one. Near such places all is asked
-/// again among all that is there, which is the same for all edges of an area. `open` are the points
-/// that were open in rounds before, and takes those that are now.
+/// Closes ways round what is seen, until none is open or nothing new is, or for a number of rounds;
+/// nothing is where that shows triangles that pass through each other. Where the order of three
+/// goes round, within what the grid did to them, the front is a matter of which of them are surely
+/// hidden along a part of an edge, and another edge of the same area may tell another one. Near
+/// such places all is asked again among all that is there, which is the same for all edges of an
+/// area. `open` are the points that were open in rounds before, near which that was done, and takes
+/// those that are now.
 void close_ways(
     const ScreenScene& scene,
     VisiblePieces& pieces,
     std::vector<PackedPoint>& open,
     const CancelFlag* cancel) {
-    const auto ask_again = [&] {
-        pieces = cell_raster_among_all(open, std::move(pieces), scene, cancel);
-    };
-    if (!open.empty())
-        ask_again();
-    while (pieces.penetrating.empty()) {
+    constexpr int most_rounds = 24;
+    for (int round = 0; round < most_rounds && pieces.penetrating.empty(); ++round) {
         const std::vector<PackedPoint> here = open_points(scene, pieces);
         const std::size_t before = open.size();
         PointNumbers numbers(open, before + here.size());
@@ -166,7 +163,9 @@ void close_ways(
             numbers.number(point);
         if (open.size() == before)
             return;
-        ask_again();
+        SceneChange change;
+        change.asked.assign(open.begin() + static_cast<std::ptrdiff_t>(before), open.end());
+        pieces = cell_raster_after(change, open, std::move(pieces), scene, {}, cancel);
     }
 }
 
@@ -216,12 +215,18 @@ WholePieces whole_pieces(
         done += part * (1 - done);
         return progress_between(progress, begin, done);
     };
+    std::vector<PackedPoint> open; // there was a way
+    const auto swept = [&](const Progress& round) {
+        VisiblePieces pieces = plane_sweep(scene, {}, round, cancel);
+        if (open.empty())
+            return pieces;
+        return cell_raster_after({{}, {}, open}, open, std::move(pieces), scene, {}, cancel);
+    };
     WholePieces result;
     const Progress first_round = progress_between(progress, 0, done);
     result.pieces = engine == VisibilityEngine::sweep
-        ? plane_sweep(scene, {}, first_round, cancel)
+        ? swept(first_round)
         : cell_raster(scene, first_round, cancel, expect);
-    std::vector<PackedPoint> open;
     while (true) {
         if (result.pieces.penetrating.empty())
             close_ways(scene, result.pieces, open, cancel);
@@ -232,9 +237,9 @@ WholePieces whole_pieces(
             return result;
         const SceneChange change = cut_penetrations(scene, result.pieces.penetrating, cancel);
         result.pieces = engine == VisibilityEngine::sweep
-            ? plane_sweep(scene, {}, next_round(), cancel)
+            ? swept(next_round())
             : cell_raster_after(
-                change, std::move(result.pieces), scene, next_round(), cancel, expect);
+                change, open, std::move(result.pieces), scene, next_round(), cancel, expect);
         ++result.rounds;
     }
 }

@@ -18,18 +18,18 @@ void SeenBeside::follow(ScreenPoint begin, ScreenPoint end) {
     bit_ = {part * x, part * y};
 }
 
-void SeenBeside::find_front(std::uint8_t side, Front& front) {
-    front.clear();
-    if (hiding_ == Hiding::by_nothing) {
-        for (std::uint32_t i = 0; i < candidates_.size(); ++i)
-            if ((candidates_[i].sides & side) != 0)
-                front.push_back({i, {candidates_[i].triangle, {}}});
-        return;
-    }
+/// Of what covers the side, as is_before() tells.
+std::uint32_t SeenBeside::foremost_on(std::uint8_t side) const {
     std::uint32_t foremost = foremost_;
     for (const std::uint32_t i : on_one_side_)
         if ((candidates_[i].sides & side) != 0 && (foremost == nothing || is_before(i, foremost)))
             foremost = i;
+    return foremost;
+}
+
+void SeenBeside::find_front(std::uint8_t side, Front& front) {
+    front.clear();
+    const std::uint32_t foremost = foremost_on(side);
     for (std::uint32_t i = 0; i < candidates_.size(); ++i)
         if ((candidates_[i].sides & side) != 0 && !candidates_[foremost].hides(candidates_[i]))
             front.push_back({i, {candidates_[i].triangle, {}}});
@@ -37,18 +37,46 @@ void SeenBeside::find_front(std::uint8_t side, Front& front) {
         return;
     // What is hidden by something hidden is hidden by what hides that as well.
     in_front_.clear();
-    for (const InFront& one : front) {
-        const Candidate& c = candidates_[one.candidate];
-        in_front_.push_back(
-            {{c.near[0] - c.margin, c.near[1] - c.margin},
-             {c.near[0] + c.margin, c.near[1] + c.margin}});
-    }
+    for (const InFront& one : front)
+        in_front_.push_back(candidates_[one.candidate].sure());
     const std::vector<std::uint8_t>& is_hidden = hidden_.hidden(in_front_);
     std::size_t kept = 0;
     for (std::size_t i = 0; i < front.size(); ++i)
         if (is_hidden[i] == 0)
             front[kept++] = front[i];
     front.resize(kept);
+}
+
+/// A few, each of which surely hides all that are not among them: none of these is in front of one
+/// of them, not even by way of some between.
+void SeenBeside::find_front_among_all(std::uint8_t side, Front& front) {
+    front.clear();
+    behind_.clear();
+    const std::uint32_t foremost = foremost_on(side);
+    if (foremost == nothing)
+        return;
+    SureNearness all_of_front = candidates_[foremost].sure();
+    const auto joins = [&](std::uint32_t i) {
+        const SureNearness one = candidates_[i].sure();
+        if (all_of_front.hides(one))
+            return false;
+        for (std::size_t place = 0; place < 2; ++place)
+            all_of_front.least[place] = std::min(all_of_front.least[place], one.least[place]);
+        front.push_back({i, {candidates_[i].triangle, {}}});
+        return true;
+    };
+    for (std::uint32_t i = 0; i < candidates_.size(); ++i)
+        if ((candidates_[i].sides & side) != 0 && !joins(i))
+            behind_.push_back(i);
+    // What joined late may not hide what was left out before.
+    for (std::size_t before = 0; before != front.size();) {
+        before = front.size();
+        std::size_t kept = 0;
+        for (const std::uint32_t i : behind_)
+            if (!joins(i))
+                behind_[kept++] = i;
+        behind_.resize(kept);
+    }
 }
 
 bool SeenBeside::has_one_sided(const Front& front) const {
@@ -66,6 +94,9 @@ void SeenBeside::put_in_order(Front& front) const {
     std::sort(front.begin(), front.end(), [&](const InFront& a, const InFront& b) {
         return key(a) < key(b);
     });
+}
+
+void SeenBeside::find_chords(Front& front) const {
     for (auto& [candidate, on_line] : front)
         on_line.chord =
             chord_in(corners_of(scene_, scene_.triangles[on_line.triangle]), begin_, end_);
@@ -187,6 +218,7 @@ std::uint32_t SeenBeside::find_in(Front& front) {
     put_in_order(front);
     if (hiding_ == Hiding::by_nothing)
         return find_among_all(front);
+    find_chords(front);
     changes_ = false;
     const Top middle = top_at(0.5, front);
     if (changes_)
@@ -202,8 +234,10 @@ SeenBeside::Seen SeenBeside::find(
                            });
     if (is_hidden && !asks_always)
         return {nothing, nothing, foremost_};
-    find_front(left_side, fronts_[0]);
-    find_front(right_side, fronts_[1]);
+    const auto find_front_on =
+        hiding_ == Hiding::by_nothing ? &SeenBeside::find_front_among_all : &SeenBeside::find_front;
+    (this->*find_front_on)(left_side, fronts_[0]);
+    (this->*find_front_on)(right_side, fronts_[1]);
     if (!asks_always && !has_one_sided(fronts_[0]) && !has_one_sided(fronts_[1]))
         return {};
     penetrating_ = &penetrating;

@@ -32,20 +32,17 @@ public:
     };
 
     /// slopes[i] is that of triangle i. Both must outlive this.
-    SeenBeside(
-        const ScreenScene& scene,
-        std::span<const NearnessSlope> slopes,
-        Hiding hiding = Hiding::by_what_covers)
+    SeenBeside(const ScreenScene& scene, std::span<const NearnessSlope> slopes)
         : scene_(scene)
-        , slopes_(slopes)
-        , hiding_(hiding) {}
+        , slopes_(slopes) {}
 
     /// Goes on with another edge.
     void follow(ScreenPoint begin, ScreenPoint end);
 
     /// Forgets what was added, and goes on with the part of the edge between the places, which come
     /// in the direction of the edge.
-    void start(NearnessPlace first, NearnessPlace last) {
+    void start(NearnessPlace first, NearnessPlace last, Hiding hiding = Hiding::by_what_covers) {
+        hiding_ = hiding;
         places_ = {{{first.x - bit_.x, first.y - bit_.y}, {last.x + bit_.x, last.y + bit_.y}}};
         candidates_.clear();
         on_one_side_.clear();
@@ -87,11 +84,12 @@ private:
 
         double near_at(double part) const { return near[0] + part * (near[1] - near[0]); }
 
-        /// By more than the margins at both places.
-        bool hides(const Candidate& other) const {
-            return near[0] - margin > other.near[0] + other.margin
-                && near[1] - margin > other.near[1] + other.margin;
+        SureNearness sure() const {
+            return {{near[0] - margin, near[1] - margin}, {near[0] + margin, near[1] + margin}};
         }
+
+        /// By more than the margins at both places.
+        bool hides(const Candidate& other) const { return sure().hides(other.sure()); }
     };
 
     /// A candidate that nothing surely hides on a side.
@@ -119,9 +117,12 @@ private:
 
     using Front = std::vector<InFront>;
 
+    std::uint32_t foremost_on(std::uint8_t side) const;
     void find_front(std::uint8_t side, Front& front);
+    void find_front_among_all(std::uint8_t side, Front& front);
     bool has_one_sided(const Front& front) const;
     void put_in_order(Front& front) const;
+    void find_chords(Front& front) const;
     std::uint32_t find_in(Front& front);
     Top top_at(double part, const Front& front);
     bool is_in_front(const InFront& a, const InFront& b, double part);
@@ -131,7 +132,7 @@ private:
 
     const ScreenScene& scene_;
     std::span<const NearnessSlope> slopes_;
-    Hiding hiding_;
+    Hiding hiding_ = Hiding::by_what_covers; ///< along that part
     ScreenPoint begin_;
     ScreenPoint end_;
     NearnessPlace bit_; ///< of the way along the edge
@@ -141,6 +142,7 @@ private:
     std::uint32_t foremost_ = nothing;       ///< of those on both, as is_before() tells
     std::array<Front, 2> fronts_;            ///< on the left and on the right
     std::vector<SureNearness> in_front_;     ///< of the candidates of one of these
+    std::vector<std::uint32_t> behind_;      ///< candidates that are not among them
     HiddenOfMany hidden_;
     bool changes_ = false; ///< somebody comes to be in front of somebody on the way
     std::vector<std::pair<std::uint32_t, std::uint32_t>>* penetrating_ = nullptr;

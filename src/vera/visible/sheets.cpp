@@ -175,7 +175,7 @@ void block_by_sheets(Cells& cells, const SheetScene& sheets, const CancelFlag* c
         const std::int32_t size = std::int32_t{1} << cells.shift;
         const double blocked =
             sheets_of_cell.blocked(triangles, {low, {low.x + size, low.y + size}});
-        if (blocked <= cells.blocked[cell])
+        if (blocked <= cells.blocked[cell] || cells.hides_nothing_in(cell))
             return;
         cells.blocked[cell] = blocked;
         const auto first = cells.triangles.begin() + cells.starts[cell];
