@@ -246,6 +246,21 @@ TEST(DrawCommand, RefusesWhatItCannotUnderstand) {
     EXPECT_EQ(folder.file_count(), 1U);
 }
 
+TEST(DrawCommand, WritesOverNoMeshAndNoMaterialsThatItReads) {
+    const ScratchFolder folder;
+    folder.write("a.vera", "MESH \"a.obj\"");
+    folder.write("a.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n");
+    folder.write("a.mtl", "newmtl red\nKd 1 0 0\n");
+    for (const char* scene : {"a.vera", "a.obj"})
+        for (const std::string output : {"a.obj", "a.mtl"}) {
+            const ProgramRun run =
+                run_vera(folder, "draw " + std::string(scene) + " -o " + output + " --format svg");
+            EXPECT_EQ(run.exit_code, 2) << run.err;
+            EXPECT_TRUE(holds(run.err, "would write over '" + output + "', which")) << run.err;
+        }
+    EXPECT_TRUE(folder.read("a.mtl").starts_with("newmtl"));
+}
+
 TEST(DrawCommand, TellsAWrongSceneWithItsPlaceAndWritesNothing) {
     const ScratchFolder folder;
     folder.write("a.vera", "PROJECTION 0 2 8  -2 0 0  2 0 0  -2 4 0\nSP 0 1 blue 1\n");

@@ -131,6 +131,22 @@ TEST_F(ReadScene, IncludesTextsFromTheFolderOfTheOneThatNamesThem) {
     EXPECT_NE(geometry.items[2].material, geometry.items[0].material) << "CM of the included text";
 }
 
+TEST_F(ReadScene, NamesTheFilesOfMeshesAndTheirMaterialsBehindThoseOfItems) {
+    write("a.vera", "MESH \"a.obj\" MESH \"a.obj\" TR 1 0 0 INCLUDE \"b.vera\"");
+    write("b.vera", "SP 0 0 0 1");
+    write("a.obj", "mtllib a.mtl none.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n");
+    write("a.mtl", "newmtl red\nKd 1 0 0\n");
+    const Scene scene = read_scene(path("a.vera")).scene;
+    EXPECT_EQ(scene.files.at(scene.geometry.items.back().file), path("b.vera").string());
+    ASSERT_THAT(scene.files, testing::SizeIs(testing::Ge(4U)));
+    EXPECT_THAT(
+        std::vector(scene.files.end() - 2, scene.files.end()),
+        testing::ElementsAre(path("a.mtl").string(), path("a.obj").string()));
+    EXPECT_THAT(
+        read_scene(path("a.obj")).scene.files,
+        testing::ElementsAre(path("a.obj").string(), path("a.mtl").string()));
+}
+
 TEST_F(ReadScene, GoesOnWithASubsceneThatAnIncludedTextBegins) {
     write("a.vera", "SSC s INCLUDE \"b.vera\" SP 0 0 0 2 MA m SP 0 0 0 3 CM m");
     write("b.vera", "SCENE s CM m SP 0 0 0 1");

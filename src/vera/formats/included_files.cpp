@@ -54,7 +54,8 @@ IncludedFiles::existing(std::string_view name, const WordPlace& place) {
         complaints_.error(place, fmt::format("{} is not a file", shown(name)));
         return std::nullopt;
     }
-    return path.lexically_normal();
+    const auto normal = path.lexically_normal();
+    return normal == "-" ? path : normal;
 }
 
 const SourceText* IncludedFiles::text(std::string_view name, const WordPlace& place) {
@@ -114,6 +115,8 @@ std::optional<Scene> IncludedFiles::mesh(
         return std::nullopt;
     }
     complaints_.add(warnings);
+    mesh_files_.insert(path.string());
+    mesh_files_.insert(scene.files.begin(), scene.files.end());
     return scene;
 }
 

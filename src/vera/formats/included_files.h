@@ -10,6 +10,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -35,11 +36,15 @@ public:
     std::optional<Scene>
     mesh(const std::filesystem::path& path, MeshMaterials materials, const WordPlace& place);
 
+    /// The files of the meshes and of their materials, as they were read.
+    const std::set<std::string>& mesh_files() const { return mesh_files_; }
+
 private:
     std::optional<std::filesystem::path> existing(std::string_view name, const WordPlace& place);
 
     Complaints& complaints_;
     std::map<std::filesystem::path, std::unique_ptr<SourceText>> texts_; ///< by canonical path
+    std::set<std::string> mesh_files_;
 };
 
 } // namespace vera

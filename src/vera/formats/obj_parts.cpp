@@ -120,7 +120,9 @@ private:
     }
 
     void read_library(std::string_view name) {
-        const std::filesystem::path path = (folder_ / name).lexically_normal();
+        std::filesystem::path path = (folder_ / name).lexically_normal();
+        if (path == "-")
+            path = folder_ / name;
         if (!read_.insert(path).second)
             return;
         if (!is_file(path)) {
@@ -135,6 +137,7 @@ private:
             return;
         }
         const SourceText text(path);
+        scene_.files.push_back(path.string());
         for (Material& material : read_mtl(text, warnings_))
             defined_.emplace(material.name, std::move(material));
     }

@@ -47,8 +47,9 @@ std::vector<Mesh> split_mesh(const Mesh& mesh, std::span<const std::uint32_t> en
 /// The mesh of an OBJ file as a scene without lights: a mesh for each run of triangles of one
 /// material, in the order of the file, and of the materials those that have triangles. A file named
 /// by mtllib is looked for in the folder of the OBJ file; where it is missing or a material in
-/// none, there is a warning, and the material is of default colours. Throws InputError as read_obj
-/// and read_mtl do, and std::system_error when a file of materials cannot be read.
+/// none, there is a warning, and the material is of default colours. The scene's files are those of
+/// materials that were read. Throws InputError as read_obj and read_mtl do, and std::system_error
+/// when a file of materials cannot be read.
 Scene read_obj_parts(const SourceText& source, std::vector<Diagnostic>& warnings);
 
 } // namespace vera

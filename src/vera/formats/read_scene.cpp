@@ -34,6 +34,7 @@ SceneFile mesh_scene(const SourceText& text, SceneFormat format) {
         Scene parts = read_obj_parts(text, file.warnings);
         file.scene.geometry = std::move(parts.geometry);
         file.scene.materials = std::move(parts.materials);
+        file.scene.files.insert(file.scene.files.end(), parts.files.begin(), parts.files.end());
         return file;
     }
     Geometry& geometry = file.scene.geometry;

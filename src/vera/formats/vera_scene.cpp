@@ -39,6 +39,9 @@ public:
         }
         SceneFile file;
         file.scene = builder_.finish();
+        // Behind those that items name.
+        file.scene.files.insert(
+            file.scene.files.end(), files_.mesh_files().begin(), files_.mesh_files().end());
         file.warnings = complaints_.finish();
         number_primitives(file.scene);
         return file;
