@@ -213,6 +213,27 @@ TEST(SplitPolygon, CoversACombOfManyTeethOnce) {
     expect_covered(corners, result);
 }
 
+/// A spike is as long as the way on which it goes in and out: each corner is its tip when those
+/// behind it are gone. Going round for each of them takes minutes.
+TEST(SplitPolygon, DropsASpikeThatWindsASpiralInItsStride) {
+    std::vector<Vec3> corners;
+    constexpr int turns = 150'000;
+    Vec3 at;
+    for (int i = 0; i < turns; ++i) {
+        corners.push_back(at);
+        const double length = 1.0 + i / 2;
+        const double way = i % 4 < 2 ? length : -length;
+        at = at + (i % 2 == 0 ? Vec3{way, 0, 0} : Vec3{0, way, 0});
+    }
+    for (std::size_t i = corners.size() - 1; i > 0; --i)
+        corners.push_back(corners[i - 1]);
+    const std::vector<Vec3> triangle = {{0, 0, 0}, {-1e6, -1e6, 0}, {1e6, -1e6, 0}};
+    corners.insert(corners.end(), triangle.begin(), triangle.end());
+    const Split result = split(corners);
+    EXPECT_EQ(result.kind, OutlineKind::tangled);
+    EXPECT_LT(result.triangles.size(), 100U);
+}
+
 TEST(SplitPolygon, EndsSoonWhateverTheCorners) {
     std::mt19937 random(1988);
     std::vector<Vec3> corners;

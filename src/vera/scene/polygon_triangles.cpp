@@ -107,6 +107,8 @@ public:
         previous_.resize(n);
         next_.resize(n);
         state_.assign(n, State::reflex);
+        changed_.resize(n);
+        std::iota(changed_.begin(), changed_.end(), 0U);
         for (std::uint32_t i = 0; i < n; ++i) {
             previous_[i] = i == 0 ? n - 1 : i - 1;
             next_[i] = i + 1 == n ? 0 : i + 1;
@@ -165,6 +167,8 @@ private:
         reflex_count_ -= state_[i] == State::reflex ? 1 : 0;
         state_[i] = State::gone;
         --left_;
+        changed_.push_back(before);
+        changed_.push_back(after);
         update(before);
         update(after);
         // No corner becomes reflex; those that no longer are, are not to be looked at again.
@@ -193,22 +197,35 @@ private:
         return !reflex_.is_any_in(ear, is_in_the_way, steps_left_);
     }
 
-    /// When no ear is left: corners on straight lines and the tips of spikes hold no area.
+    /// When no ear is left: corners on straight lines and the tips of spikes hold no area. Goes
+    /// round once from `any` on, past those alone that others were cut beside since it last did:
+    /// else a way back and forth, each corner of which is a tip when the one behind it is gone,
+    /// would take the square of its corners.
     bool drop_straight_corners(std::uint32_t& any, std::vector<std::uint32_t>& waiting) {
         if (steps_left_ == 0)
             return false;
+        std::vector<std::uint32_t> asked = std::exchange(changed_, {});
+        asked.push_back(previous_[any]); // has another neighbour at the end if `any` is cut
+        std::erase_if(asked, [&](std::uint32_t i) { return state_[i] == State::gone; });
+        const auto distance = [n = points_.size(), first = any](std::uint32_t i) {
+            return i >= first ? i - first : i + n - first;
+        };
+        std::ranges::sort(asked, {}, distance);
         bool dropped = false;
-        std::uint32_t i = any;
-        for (std::size_t count = left_; count > 0 && left_ > 3; --count) {
-            const std::uint32_t after = next_[i];
-            if (turn(points_[previous_[i]], points_[i], points_[after]) == 0) {
+        std::size_t past = 0; // nobody nearer is asked again
+        for (std::size_t next = 0; next < asked.size(); ++next)
+            for (std::uint32_t i = asked[next];
+                 left_ > 3 && state_[i] != State::gone && distance(i) >= past;) {
+                const std::uint32_t after = next_[i];
+                past = distance(i) + 1;
+                if (turn(points_[previous_[i]], points_[i], points_[after]) != 0)
+                    break;
                 any = cut(i);
                 waiting.push_back(any);
                 waiting.push_back(after);
                 dropped = true;
+                i = after;
             }
-            i = after;
-        }
         return dropped;
     }
 
@@ -224,6 +241,7 @@ private:
     detail::CornerTree reflex_; ///< the reflex corners, and some that were
     std::size_t reflex_count_ = 0;
     std::vector<State> state_;
+    std::vector<std::uint32_t> changed_; ///< corners with another neighbour than when last asked
     std::size_t left_;
     std::size_t steps_left_;
 };
