@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <iterator>
 #include <span>
+#include <unordered_set>
 
 namespace vera {
 
@@ -125,7 +126,7 @@ void cover_seams(
     std::span<const DrawingColor> colors,
     std::size_t number,
     PaintedRegion& region) {
-    std::vector<std::uint32_t> below;
+    std::unordered_set<std::uint32_t> below; // as many as small areas lie within a large one
     const auto cover = [&](std::span<const BorderPoint> border, std::uint32_t across) {
         if (!is_small(regions, widths, across)) {
             if (has_room_for_seam(regions, widths, number, across))
@@ -134,8 +135,7 @@ void cover_seams(
                 go_on_closely(regions, border, across, region);
         } else if (!are_alike(colors[number], colors[across])) {
             go_on_closely(regions, border, across, region);
-        } else if (std::find(below.begin(), below.end(), across) == below.end()) {
-            below.push_back(across);
+        } else if (below.insert(across).second) {
             std::ranges::move(regions.borders(across), std::back_inserter(region.below));
         }
     };
