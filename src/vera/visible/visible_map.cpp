@@ -5,6 +5,7 @@
 #include "vera/base/long_loop.h"
 #include "vera/base/progress_part.h"
 #include "vera/visible/open_points.h"
+#include "vera/visible/region_numbers.h"
 #include "vera/visible/traced_rings.h"
 #include "vera/visible/ways.h"
 
@@ -20,8 +21,6 @@
 namespace vera {
 
 namespace {
-
-constexpr std::uint32_t none = ~std::uint32_t{0};
 
 constexpr std::size_t block = 4096; ///< vertices or pieces that a thread takes at a time
 
@@ -275,57 +274,6 @@ following(const Ways& ways, const Progress& progress, const CancelFlag* cancel, 
     Joining(ways, cancel, result, map).join(joined(loose));
     return result;
 }
-
-/// Numbers regions in ascending order.
-class RegionNumbers {
-public:
-    void add(VisibleMap::Region region) {
-        if (region.source >= first_.size())
-            first_.resize(region.source + std::size_t{1}, none);
-        for (std::uint32_t i = first_[region.source]; i != none; i = listed_[i].next)
-            if (listed_[i].unlit == region.unlit)
-                return;
-        listed_.push_back({region.unlit, first_[region.source]});
-        first_[region.source] = static_cast<std::uint32_t>(listed_.size() - 1);
-    }
-
-    /// All that were added.
-    std::vector<VisibleMap::Region> numbered() {
-        std::vector<VisibleMap::Region> regions;
-        regions.reserve(listed_.size());
-        for (std::uint32_t source = 0; source < first_.size(); ++source) {
-            const std::size_t begin = regions.size();
-            for (std::uint32_t i = first_[source]; i != none; i = listed_[i].next)
-                regions.push_back({source, listed_[i].unlit});
-            std::sort(regions.begin() + static_cast<std::ptrdiff_t>(begin), regions.end());
-            for (std::uint32_t i = first_[source]; i != none; i = listed_[i].next) {
-                const auto found = std::find(
-                    regions.begin() + static_cast<std::ptrdiff_t>(begin),
-                    regions.end(),
-                    VisibleMap::Region{source, listed_[i].unlit});
-                listed_[i].number = static_cast<std::uint32_t>(found - regions.begin());
-            }
-        }
-        return regions;
-    }
-
-    std::uint32_t number(VisibleMap::Region region) const {
-        std::uint32_t i = first_[region.source];
-        while (listed_[i].unlit != region.unlit)
-            i = listed_[i].next;
-        return listed_[i].number;
-    }
-
-private:
-    struct Listed {
-        LightSet unlit = 0;
-        std::uint32_t next = none; ///< of the same source
-        std::uint32_t number = 0;
-    };
-
-    std::vector<std::uint32_t> first_; ///< of each source
-    std::vector<Listed> listed_;
-};
 
 Ways ways_of(
     const ScreenScene& scene,
