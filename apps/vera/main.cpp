@@ -85,6 +85,7 @@ ExitCode run(CLI::App& app, Console& console, int argc, char** argv) {
 
 int main(int argc, char** argv) {
     Console console;
+    vera::occupy_standard_streams();
     vera::stop_on_interrupt(console);
 
     CLI::App app("VERA turns a scene file into a picture that can be trusted.", "vera");

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "messages.h"
 
+#include <cstdio>
 #include <cstdlib>
 #include <string>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <unistd.h>
@@ -45,6 +47,23 @@ std::string painted(const Diagnostic& diagnostic) {
 
 } // namespace
 
+void occupy_standard_streams() {
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+        if (fcntl(stream, F_GETFD) == -1) {
+            // The other way than it is used, so that to use it is an error as without it. The
+            // lowest free number is taken, which is this one.
+            [[maybe_unused]] const int taken =
+                open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+        }
+}
+
+void print_message(std::string_view text) {
+    // A stream that has failed once may be there again, as a disk that was full.
+    std::clearerr(stderr);
+    std::fwrite(text.data(), 1, text.size(), stderr);
+    std::fflush(stderr);
+}
+
 bool uses_color(const Console& console) {
     if (console.color != Console::ColorStyle::automatic)
         return console.color == Console::ColorStyle::always;
@@ -58,20 +77,20 @@ void print_diagnostics(std::span<const Diagnostic> diagnostics, const Console& c
     const bool color = uses_color(console);
     for (const Diagnostic& diagnostic : diagnostics)
         if (!console.quiet || diagnostic.severity == Severity::error)
-            fmt::print(stderr, "{}", color ? painted(diagnostic) : to_text(diagnostic));
+            print_message(color ? painted(diagnostic) : to_text(diagnostic));
 }
 
 void print_error(std::string_view message, const Console& console) {
     if (uses_color(console))
-        fmt::print(
-            stderr, "{}vera: {}error:{} {}\n", bold, paint(Severity::error).color, plain, message);
+        print_message(fmt::format(
+            "{}vera: {}error:{} {}\n", bold, paint(Severity::error).color, plain, message));
     else
-        fmt::print(stderr, "vera: error: {}\n", message);
+        print_message(fmt::format("vera: error: {}\n", message));
 }
 
 void print_note(std::string_view message, const Console& console) {
     if (!console.quiet)
-        fmt::print(stderr, "{}\n", message);
+        print_message(fmt::format("{}\n", message));
 }
 
 std::string to_json(std::span<const Diagnostic> diagnostics) {

@@ -10,6 +10,14 @@
 
 namespace vera {
 
+/// Makes sure that no file is opened under the number of a standard stream that the program was
+/// started without: messages would be written into it.
+void occupy_standard_streams();
+
+/// Writes to stderr, and does nothing where that cannot be written: nobody is told less than a
+/// program that stops for it would tell.
+void print_message(std::string_view text);
+
 /// Prints diagnostics to stderr; of warnings and notes nothing when the console is quiet.
 void print_diagnostics(std::span<const Diagnostic> diagnostics, const Console& console);
 

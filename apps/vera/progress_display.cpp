@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "messages.h"
 #include <fmt/format.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
@@ -46,7 +46,7 @@ ProgressDisplay::ProgressDisplay(const Console& console, std::string stage)
 
 ProgressDisplay::~ProgressDisplay() {
     if (shown_ && style_ == Console::ProgressStyle::bar)
-        std::fputs("\r\x1b[K", stderr);
+        print_message("\r\x1b[K");
 }
 
 Progress ProgressDisplay::callback() {
@@ -81,29 +81,25 @@ void ProgressDisplay::show_bar(double done, double elapsed_seconds) const {
     const std::size_t used = stage_.size() + text.size() + 4;
     const std::size_t room = columns > used ? std::min<std::size_t>(columns - used, 40) : 0;
     const auto filled = static_cast<std::size_t>(part * static_cast<double>(room));
-    fmt::print(
-        stderr,
+    print_message(fmt::format(
         "\r{} [{}{}]{}\x1b[K",
         stage_,
         std::string(filled, '='),
         std::string(room - filled, ' '),
-        text);
-    std::fflush(stderr);
+        text));
 }
 
 void ProgressDisplay::show_json(double done, double elapsed_seconds) const {
     const double part = std::clamp(done, 0.0, 1.0);
     const std::string left =
         part > 0 ? fmt::format("{:.2f}", elapsed_seconds * (1 - part) / part) : "null";
-    fmt::print(
-        stderr,
+    print_message(fmt::format(
         R"({{"version": 1, "stage": "{}", "done": {:.4f}, "elapsed_seconds": {:.2f}, "seconds_left": {}}})"
         "\n",
         stage_,
         part,
         elapsed_seconds,
-        left);
-    std::fflush(stderr);
+        left));
 }
 
 } // namespace vera

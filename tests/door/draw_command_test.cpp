@@ -290,6 +290,20 @@ TEST(DrawCommand, FailsClearlyWhereItCannotReadOrWrite) {
     EXPECT_EQ(folder.file_count(), 1U);
 }
 
+TEST(DrawCommand, GoesOnWhereNobodyHearsItsMessages) {
+    const ScratchFolder folder;
+    folder.write("a.vera", small_scene);
+    ASSERT_EQ(run_vera(folder, "draw a.vera -o a.svg").exit_code, 0);
+    for (const std::string stream : {"2>&-", "2>/dev/full", ">&- 2>&-"}) {
+        if (stream == "2>/dev/full" && !std::filesystem::exists("/dev/full"))
+            continue;
+        EXPECT_EQ(run_vera(folder, "draw a.vera -o b.svg --progress json " + stream).exit_code, 0);
+        EXPECT_EQ(folder.read("b.svg"), folder.read("a.svg")) << stream;
+        EXPECT_EQ(run_vera(folder, "draw b.vera -o a.svg " + stream).exit_code, 3) << stream;
+        EXPECT_EQ(run_vera(folder, "draw a.vera " + stream).exit_code, 2) << stream;
+    }
+}
+
 TEST(DrawCommand, ReportsCountsAndProgressAsJson) {
     const ScratchFolder folder;
     folder.write("a.vera", small_scene);
