@@ -227,6 +227,10 @@ TEST(ObjParts, NameFilesThatAreNone) {
                 .warnings);
     };
     EXPECT_EQ(said_of("m.mtl # and no other"), "");
+    EXPECT_EQ(said_of("m.mtl # of C:\\"), "") << "no backslash continues a comment";
+    EXPECT_EQ(said_of("\\\n m.mtl"), "") << "one continues the line";
+    EXPECT_EQ(said_of(" \\\r\nm.mtl\r"), "");
+    EXPECT_THAT(said_of("n.mtl \\\nm.mtl"), HasSubstr("a.obj:1:8: warning: there is no file"));
     EXPECT_THAT(said_of("."), HasSubstr("'.' is not a file: its materials have default colours"));
     EXPECT_THAT(
         said_of("M.mtl"), HasSubstr("there is no file 'M.mtl' (did you mean 'm.mtl'?): its"));

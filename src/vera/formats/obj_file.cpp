@@ -117,14 +117,29 @@ private:
         } else if (keyword == "usemtl") {
             begin_run(start);
         } else if (keyword == "mtllib") {
-            if (const std::string_view names = cursor_.name_of_line(); !names.empty())
-                materials_.libraries.push_back(names);
+            take_libraries();
         } else if (!keyword.empty()) {
             if (is_one_of(free_form, keyword))
                 free_form_.add(start);
             else if (!is_one_of(passed_over, keyword))
                 unknown_.add(start);
         }
+    }
+
+    /// What stands on this line and on those that continue it, of which a comment is the end.
+    void take_libraries() {
+        bool continues = true;
+        while (continues) {
+            std::string_view names = cursor_.name_of_line();
+            continues = names.ends_with('\\') && names.find('#') == std::string_view::npos;
+            if (continues)
+                names = names.substr(0, names.find_last_not_of(" \t\\") + 1);
+            if (!names.empty())
+                materials_.libraries.push_back(names);
+            if (continues)
+                cursor_.skip_comment(); // the line and nothing else
+        }
+        cursor_.pass(cursor_.rest_of_line());
     }
 
     /// Faces from here on have the material of that name.
