@@ -23,4 +23,11 @@ std::map<std::uint32_t, int> turns_about(const VisibleMap& map, double x, double
     return turns;
 }
 
+double area_of(const VisibleMap& map) {
+    double area = 0;
+    for (const VisibleMap::Ring& ring : map.rings)
+        area += 0.5 * doubled_area(map, ring);
+    return area;
+}
+
 } // namespace vera::testing

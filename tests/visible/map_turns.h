@@ -12,4 +12,7 @@ namespace vera::testing {
 /// of which that is 0 are left out.
 std::map<std::uint32_t, int> turns_about(const VisibleMap& map, double x, double y);
 
+/// Of all rings together, in steps of the grid.
+double area_of(const VisibleMap& map);
+
 } // namespace vera::testing

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/base/parallel.h"
 #include "vera/visible/brute_force.h"
-#include "vera/visible/cells.h"
-#include "vera/visible/open_points.h"
 #include "vera/visible/penetrations.h"
-#include "vera/visible/sheets.h"
 #include "vera/visible/visible_map.h"
 
 #include <algorithm>
@@ -24,18 +21,12 @@
 namespace vera {
 namespace {
 
+using testing::area_of;
 using testing::layers;
 using testing::scattered;
 using testing::tangle;
 using testing::terrain;
 using testing::turns_about;
-
-double area_of(const VisibleMap& map) {
-    double area = 0;
-    for (const VisibleMap::Ring& ring : map.rings)
-        area += 0.5 * doubled_area(map, ring);
-    return area;
-}
 
 /// The map shows at each of the points what asking every triangle tells.
 void expect_like_brute_force(
@@ -414,83 +405,6 @@ TEST(VisibleMap, HoldsAThousandEdgesThroughOnePoint) {
     EXPECT_EQ(map.rings.size(), std::size_t{count});
 }
 
-TEST(Cells, HoldListsInProportionToTheTrianglesHoweverManyLieOneBehindTheOther) {
-    // Slanting so that none is nearer than another everywhere.
-    ScreenScene scene;
-    constexpr std::uint32_t count = 3000;
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const auto first = static_cast<std::uint32_t>(scene.vertices.size());
-        scene.vertices.push_back({{0, static_cast<std::int32_t>(i)}, depth_size / 2 - i});
-        scene.vertices.push_back({{screen_size, 0}, depth_size / 2});
-        scene.vertices.push_back({{0, screen_size}, depth_size / 2 + i});
-        add_triangle(scene, {first, first + 1, first + 2}, i);
-    }
-    EXPECT_LE(cells_of(scene).triangles.size(), 64 * count + 65536);
-}
-
-TEST(Cells, ThatAreAskedForHoldAndAreBlockedByTheSameAsIfAllWere) {
-    std::size_t entries = 0;
-    for (std::uint64_t seed = 0; seed < 60 && !HasFailure(); ++seed) {
-        const ScreenScene scene = seed % 3 == 0 ? terrain(seed, 4 << (seed % 4))
-            : seed % 3 == 1 ? layers(seed, 1 + seed % 40, std::int32_t{1} << (1 + seed % 4))
-                            : scattered(seed, 10 * seed, screen_size / 30);
-        const std::vector<NearnessSlope> slopes = slopes_of(scene);
-        const Cells all = cells_of(scene, slopes);
-        // From none of them to all: mostly few, which most triangles touch none of.
-        std::mt19937_64 random(seed);
-        std::vector<std::uint8_t> is_asked(all.blocked.size());
-        for (std::uint8_t& asked : is_asked)
-            asked = random() % 60 < seed / 2 ? 1 : 0;
-        const Cells some = cells_of(scene, slopes, nullptr, [&](const Cells&) { return is_asked; });
-        ASSERT_EQ(some.blocked.size(), is_asked.size());
-        for (std::size_t cell = 0; cell < is_asked.size(); ++cell) {
-            if (is_asked[cell] == 0) {
-                EXPECT_TRUE(some.triangles_of(cell).empty()) << "seed " << seed;
-                continue;
-            }
-            EXPECT_TRUE(std::ranges::equal(some.triangles_of(cell), all.triangles_of(cell)))
-                << "seed " << seed;
-            EXPECT_EQ(some.blocked[cell], all.blocked[cell]) << "seed " << seed;
-            entries += some.triangles_of(cell).size();
-        }
-    }
-    EXPECT_GT(entries, 1000U);
-}
-
-TEST(Cells, AreBlockedByNothingNearerThanWhatCoversThem) {
-    std::size_t blocked = 0;
-    for (std::uint64_t seed = 0; seed < 40; ++seed) {
-        ScreenScene scene = seed % 3 == 0 ? terrain(seed, 4 << (seed % 5))
-            : seed % 3 == 1 ? layers(seed, 1 + seed % 40, std::int32_t{1} << (1 + seed % 4))
-                            : tangle(seed, 2 + seed % 30, 8);
-        whole_pieces(scene); // cuts what is tangled to slivers
-        const std::vector<NearnessSlope> slopes = slopes_of(scene);
-        const ScreenEdges edges = screen_edges(scene);
-        Cells cells = cells_of(scene, slopes);
-        const std::vector<double> alone = cells.blocked;
-        block_by_sheets(cells, {scene, edges, edge_neighbours(scene, edges), slopes});
-        std::mt19937_64 random(seed);
-        for (int i = 0; i < 200; ++i) {
-            const auto x = static_cast<std::int32_t>(random() % screen_size);
-            const auto y = static_cast<std::int32_t>(random() % screen_size);
-            const std::size_t cell = cells.number(cells.cell_of(x), cells.cell_of(y));
-            double nearest = -1;
-            for (std::size_t j = 0; j < scene.triangles.size(); ++j) {
-                const auto corners = corners_of(scene, scene.triangles[j]);
-                const auto is_left = [&](std::size_t k) {
-                    return orientation(corners[k].point, corners[(k + 1) % 3].point, {x, y}) >= 0;
-                };
-                if (is_left(0) && is_left(1) && is_left(2))
-                    nearest = std::max(
-                        nearest, slopes[j].at({static_cast<double>(x), static_cast<double>(y)}));
-            }
-            EXPECT_LE(cells.blocked[cell], nearest) << "seed " << seed << " at " << x << " " << y;
-            blocked += cells.blocked[cell] > alone[cell] ? 1 : 0;
-        }
-    }
-    EXPECT_GT(blocked, 200U);
-}
-
 TEST(ScreenScene, KeepsTheFirstOfTheTextOfTrianglesInOnePlace) {
     ScreenScene scene;
     scene.vertices = {{{0, 0}, 5}, {{screen_size, 0}, 5}, {{0, screen_size}, 5}};
@@ -546,95 +460,6 @@ TEST(VisibleMap, ShowsLikeBruteForceWhatPenetratesButForAFewSteps) {
 TEST(VisibleMap, JoinsWhatIsNearestWhereSurfacesPartAlongNearlyTheSameLine) {
     // Of two loose ends of a source, the first is far from any beginning, the second near one.
     expect_like_brute_force_after_cutting(tangle(2434, 16), 1, 3000, "tangle");
-}
-
-/// A tangle with corners on few crossings and depths of a few values, so that some of it lies in
-/// one plane, in front of a sheet that fills the picture, cut where it passes through itself.
-ScreenScene cut_before_a_sheet(std::uint64_t seed) {
-    ScreenScene scene = tangle(seed, 4 + seed % 20, 6);
-    for (ScreenVertex& vertex : scene.vertices)
-        vertex.nearness = depth_size / 4 + (vertex.nearness * 3 / depth_size) * (depth_size / 8);
-    const auto first = static_cast<std::uint32_t>(scene.vertices.size());
-    for (const ScreenPoint corner :
-         {ScreenPoint{0, 0}, {screen_size, 0}, {screen_size, screen_size}, {0, screen_size}})
-        scene.vertices.push_back({corner, 0});
-    add_triangle(scene, {first, first + 1, first + 2}, 1000);
-    add_triangle(scene, {first, first + 2, first + 3}, 1000);
-    return scene;
-}
-
-TEST(VisibleMap, HasTheAreaOfThePictureAlsoWhereWaysAreJoined) {
-    std::size_t joined = 0;
-    for (std::uint64_t seed = 1200; seed < 1400; ++seed) {
-        ScreenScene scene = cut_before_a_sheet(seed);
-        const WholePieces whole = whole_pieces(scene);
-        EXPECT_EQ(whole.left, 0U) << seed;
-        const VisibleMap map = visible_map(scene, whole.pieces);
-        joined += map.joined_sides.size();
-        // What three surfaces leave between them is a few steps wide.
-        EXPECT_NEAR(area_of(map), std::ldexp(1.0, 2 * screen_bits), 64.0 * screen_size) << seed;
-        EXPECT_LE(map.longest_join, short_way) << seed;
-    }
-    EXPECT_GT(joined, 50U);
-}
-
-TEST(VisibleMap, IsThePictureWhereTheOrderOfThreeGoesRound) {
-    // Neighbours told different fronts there, and ways were joined across half the picture.
-    for (const std::uint64_t seed : {94U, 3314U, 6934U})
-        for (const auto engine : {VisibilityEngine::cells, VisibilityEngine::sweep}) {
-            ScreenScene scene = cut_before_a_sheet(seed);
-            const WholePieces whole = whole_pieces(scene, {}, nullptr, engine);
-            EXPECT_EQ(whole.left, 0U) << seed;
-            EXPECT_GT(whole.opened, 0U) << seed;
-            EXPECT_TRUE(open_points(scene, whole.pieces).empty()) << seed;
-            const VisibleMap map = visible_map(scene, whole.pieces);
-            EXPECT_NEAR(area_of(map), std::ldexp(1.0, 2 * screen_bits), 64.0 * screen_size) << seed;
-            EXPECT_LE(map.longest_join, short_way) << seed;
-        }
-}
-
-TEST(OpenPoints, AreThoseAtWhichWaysEnd) {
-    const ScreenScene scene = scattered(3, 40, screen_size / 2);
-    const VisiblePieces whole = cell_raster(scene);
-    EXPECT_TRUE(open_points(scene, whole, 0).empty());
-    std::mt19937_64 random(5);
-    for (int round = 0; round < 200; ++round) {
-        VisiblePieces pieces = whole;
-        const std::size_t one = random() % pieces.pieces.size();
-        const VisiblePiece gone = pieces.pieces[one];
-        pieces.pieces.erase(pieces.pieces.begin() + static_cast<std::ptrdiff_t>(one));
-        std::vector<std::uint32_t> ends = {gone.from, gone.to};
-        std::sort(ends.begin(), ends.end());
-        std::vector<PackedPoint> expected;
-        for (const std::uint32_t end : ends)
-            expected.push_back(pieces.points[end]);
-        std::vector<PackedPoint> found = open_points(scene, pieces, 0);
-        ASSERT_EQ(found.size(), 2U);
-        if (!(found[0] == expected[0]))
-            std::swap(found[0], found[1]);
-        EXPECT_TRUE(found == expected);
-        // Both ends do where they are near each other.
-        const double length = std::max(
-            std::abs(expected[0].x() - expected[1].x()),
-            std::abs(expected[0].y() - expected[1].y()));
-        EXPECT_TRUE(open_points(scene, pieces, length).empty());
-        EXPECT_EQ(open_points(scene, pieces, 0.5 * length).size(), 2U);
-    }
-}
-
-/// Where the order of triangles goes round nowhere, what is hidden makes no difference.
-TEST(VisiblePieces, AmongAllAreThoseFoundWithoutWhatIsHidden) {
-    for (std::uint64_t seed = 0; seed < 60; ++seed) {
-        const ScreenScene scene = layers(seed, 2 + seed % 30, std::int32_t{1} << (1 + seed % 4));
-        const VisiblePieces found = cell_raster(scene);
-        std::vector<PackedPoint> near;
-        for (std::size_t i = 0; i < found.points.size(); i += 1 + seed % 5)
-            near.push_back(found.points[i]);
-        const VisiblePieces again = cell_raster_after({{}, {}, near}, near, found, scene);
-        EXPECT_TRUE(again.penetrating.empty()) << seed;
-        EXPECT_TRUE(testing::maximal_pieces(scene, again) == testing::maximal_pieces(scene, found))
-            << seed;
-    }
 }
 
 TEST(VisibleMap, TellsWhatPenetrates) {

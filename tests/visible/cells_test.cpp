@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vera/visible/cells.h"
+#include "vera/visible/penetrations.h"
+#include "vera/visible/sheets.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include "visible/screen_scenes.h"
+#include <gtest/gtest.h>
+
+namespace vera {
+namespace {
+
+using testing::layers;
+using testing::scattered;
+using testing::tangle;
+using testing::terrain;
+
+TEST(Cells, HoldListsInProportionToTheTrianglesHoweverManyLieOneBehindTheOther) {
+    // Slanting so that none is nearer than another everywhere.
+    ScreenScene scene;
+    constexpr std::uint32_t count = 3000;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const auto first = static_cast<std::uint32_t>(scene.vertices.size());
+        scene.vertices.push_back({{0, static_cast<std::int32_t>(i)}, depth_size / 2 - i});
+        scene.vertices.push_back({{screen_size, 0}, depth_size / 2});
+        scene.vertices.push_back({{0, screen_size}, depth_size / 2 + i});
+        add_triangle(scene, {first, first + 1, first + 2}, i);
+    }
+    EXPECT_LE(cells_of(scene).triangles.size(), 64 * count + 65536);
+}
+
+TEST(Cells, ThatAreAskedForHoldAndAreBlockedByTheSameAsIfAllWere) {
+    std::size_t entries = 0;
+    for (std::uint64_t seed = 0; seed < 60 && !HasFailure(); ++seed) {
+        const ScreenScene scene = seed % 3 == 0 ? terrain(seed, 4 << (seed % 4))
+            : seed % 3 == 1 ? layers(seed, 1 + seed % 40, std::int32_t{1} << (1 + seed % 4))
+                            : scattered(seed, 10 * seed, screen_size / 30);
+        const std::vector<NearnessSlope> slopes = slopes_of(scene);
+        const Cells all = cells_of(scene, slopes);
+        // From none of them to all: mostly few, which most triangles touch none of.
+        std::mt19937_64 random(seed);
+        std::vector<std::uint8_t> is_asked(all.blocked.size());
+        for (std::uint8_t& asked : is_asked)
+            asked = random() % 60 < seed / 2 ? 1 : 0;
+        const Cells some = cells_of(scene, slopes, nullptr, [&](const Cells&) { return is_asked; });
+        ASSERT_EQ(some.blocked.size(), is_asked.size());
+        for (std::size_t cell = 0; cell < is_asked.size(); ++cell) {
+            if (is_asked[cell] == 0) {
+                EXPECT_TRUE(some.triangles_of(cell).empty()) << "seed " << seed;
+                continue;
+            }
+            EXPECT_TRUE(std::ranges::equal(some.triangles_of(cell), all.triangles_of(cell)))
+                << "seed " << seed;
+            EXPECT_EQ(some.blocked[cell], all.blocked[cell]) << "seed " << seed;
+            entries += some.triangles_of(cell).size();
+        }
+    }
+    EXPECT_GT(entries, 1000U);
+}
+
+TEST(Cells, AreBlockedByNothingNearerThanWhatCoversThem) {
+    std::size_t blocked = 0;
+    for (std::uint64_t seed = 0; seed < 40; ++seed) {
+        ScreenScene scene = seed % 3 == 0 ? terrain(seed, 4 << (seed % 5))
+            : seed % 3 == 1 ? layers(seed, 1 + seed % 40, std::int32_t{1} << (1 + seed % 4))
+                            : tangle(seed, 2 + seed % 30, 8);
+        whole_pieces(scene); // cuts what is tangled to slivers
+        const std::vector<NearnessSlope> slopes = slopes_of(scene);
+        const ScreenEdges edges = screen_edges(scene);
+        Cells cells = cells_of(scene, slopes);
+        const std::vector<double> alone = cells.blocked;
+        block_by_sheets(cells, {scene, edges, edge_neighbours(scene, edges), slopes});
+        std::mt19937_64 random(seed);
+        for (int i = 0; i < 200; ++i) {
+            const auto x = static_cast<std::int32_t>(random() % screen_size);
+            const auto y = static_cast<std::int32_t>(random() % screen_size);
+            const std::size_t cell = cells.number(cells.cell_of(x), cells.cell_of(y));
+            double nearest = -1;
+            for (std::size_t j = 0; j < scene.triangles.size(); ++j) {
+                const auto corners = corners_of(scene, scene.triangles[j]);
+                const auto is_left = [&](std::size_t k) {
+                    return orientation(corners[k].point, corners[(k + 1) % 3].point, {x, y}) >= 0;
+                };
+                if (is_left(0) && is_left(1) && is_left(2))
+                    nearest = std::max(
+                        nearest, slopes[j].at({static_cast<double>(x), static_cast<double>(y)}));
+            }
+            EXPECT_LE(cells.blocked[cell], nearest) << "seed " << seed << " at " << x << " " << y;
+            blocked += cells.blocked[cell] > alone[cell] ? 1 : 0;
+        }
+    }
+    EXPECT_GT(blocked, 200U);
+}
+
+} // namespace
+} // namespace vera
