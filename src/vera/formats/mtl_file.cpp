@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/formats/mtl_file.h"
 
+#include "vera/formats/statement_line.h"
 #include "vera/formats/text_cursor.h"
 
 #include <algorithm>
@@ -50,15 +51,8 @@ public:
         , cursor_(report_, TextCursor::Lines::continue_behind_backslash) {}
 
     std::vector<Material> read(std::vector<Diagnostic>& warnings) {
-        while (!cursor_.at_end() && !report_.full()) {
-            cursor_.skip_blanks();
-            if (cursor_.peek() == '#') {
-                cursor_.skip_comment();
-                continue;
-            }
-            read_statement();
-            cursor_.skip_line();
-        }
+        while (!cursor_.at_end() && !report_.full())
+            read_statement_line(cursor_, [&] { read_statement(); });
         end_material();
         warn();
         report_.finish(warnings);

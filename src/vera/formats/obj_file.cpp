@@ -2,6 +2,7 @@
 #include "vera/formats/mesh_builder.h"
 #include "vera/formats/mesh_file.h"
 #include "vera/formats/obj_parts.h"
+#include "vera/formats/statement_line.h"
 #include "vera/formats/text_cursor.h"
 
 #include <algorithm>
@@ -63,14 +64,8 @@ public:
 private:
     bool at_end() const { return cursor_.at_end() || report_.full(); }
 
-    /// A statement with what continues it, or a comment.
     void read_line() {
-        cursor_.skip_blanks();
-        // Not even a backslash at its end continues a comment: "# from C:\\models\\".
-        if (cursor_.peek() == '#')
-            return cursor_.skip_comment();
-        read_statement();
-        cursor_.skip_line();
+        read_statement_line(cursor_, [&] { read_statement(); });
         spent_.up_to(cursor_.offset());
     }
 
