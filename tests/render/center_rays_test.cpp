@@ -38,13 +38,18 @@ std::uint64_t bits(double number) {
     return std::bit_cast<std::uint64_t>(number);
 }
 
-void expect_those_of_the_raster(const Raster& raster, const Tile& tile, CenterRays& centers) {
+void expect_those_of_the_raster(
+    const Raster& raster, const Tile& tile, CenterRays& centers, std::size_t frame_width) {
     std::vector<QueryRay> rays;
-    centers.find(raster, tile, rays);
-    ASSERT_EQ(rays.size(), tile.width * tile.height);
+    centers.find(raster, tile, rays, frame_width);
+    const Tile framed = {0, 0, tile.width + 2 * frame_width, tile.height + 2 * frame_width};
+    ASSERT_EQ(rays.size(), framed.width * framed.height);
     auto found = rays.begin();
-    for_each_pixel(tile, [&](std::size_t x, std::size_t y) {
-        const QueryRay expected = raster.ray(static_cast<double>(x), static_cast<double>(y));
+    for_each_pixel(framed, [&](std::size_t x, std::size_t y) {
+        const auto place = [&](std::size_t first, std::size_t i) {
+            return static_cast<double>(first + i) - static_cast<double>(frame_width);
+        };
+        const QueryRay expected = raster.ray(place(tile.x, x), place(tile.y, y));
         for (std::size_t axis = 0; axis < 3; ++axis) {
             EXPECT_EQ(bits(found->ray.origin[axis]), bits(expected.ray.origin[axis]));
             EXPECT_EQ(bits(found->ray.direction[axis]), bits(expected.ray.direction[axis]));
@@ -62,9 +67,12 @@ TEST(CenterRays, AreThoseOfTheRasterToTheBitWithEveryInstructionSet) {
             const Raster raster = {ViewRays(camera), 37, 20};
             for (std::size_t width = 1; width <= 10; ++width) {
                 SCOPED_TRACE(level + ", width " + std::to_string(width));
-                expect_those_of_the_raster(raster, {3 * width, width, width, 11 - width}, centers);
+                expect_those_of_the_raster(
+                    raster, {3 * width, width, width, 11 - width}, centers, 0);
+                expect_those_of_the_raster(raster, {0, width, width, 11 - width}, centers, 2);
             }
-            expect_those_of_the_raster(raster, {0, 0, 32, 20}, centers);
+            expect_those_of_the_raster(raster, {0, 0, 32, 20}, centers, 0);
+            expect_those_of_the_raster(raster, {0, 0, 37, 20}, centers, 1);
         }
     }
     EXPECT_TRUE(limit_simd(""));

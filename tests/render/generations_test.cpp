@@ -3,6 +3,7 @@
 #include "vera/render/generations.h"
 
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "test_scenes.h"
@@ -225,6 +226,55 @@ TEST(Generations, AColourDependsOnNothingButItsRay) {
     const Traced together = traced(maker, settings, rays);
     for (std::size_t i = 0; i < rays.size(); i += 97)
         ASSERT_EQ(together.colors[i], traced(maker, settings, rays[i])) << "ray " << i;
+}
+
+TEST(Generations, WhatRaysMeetIsToldBesideTheirColoursAndIsTheSame) {
+    SceneMaker maker;
+    maker.material(mirror({0.5, 0.25, 1}));
+    maker.sphere({0, 1, 0}, 1);
+    maker.material(glass({0.5, 0.5, 0.25}, 1.25));
+    add_floor(maker, 0);
+    maker.light({3, 5, 4}, 30);
+    PictureSettings settings = settings_of_depth(3);
+    settings.firmament = Firmament{{0, 0, 1}, {1, 1, 1}, {0.5, 0.25, 0}};
+    const auto index = make_brute_force(maker.finish());
+    const TracedScene scene = traced_scene(maker.scene, *index, settings);
+    GenerationTracer tracer(scene);
+    // Some pass the floor by, and there are more of them than are worked on at a time.
+    std::vector<QueryRay> rays(600);
+    for (std::size_t i = 0; i < rays.size(); ++i)
+        rays[i].ray = {
+            {static_cast<double>(i % 30) - 12, 5, 0.5}, {0, -0.6, i % 7 < 3 ? 0.8 : -0.8}};
+
+    SurfacePoint untouched;
+    untouched.point = {1, 2, 3};
+    std::vector<Hit> hits(rays.size());
+    std::vector<Hit> expected_hits(rays.size());
+    std::vector<SurfacePoint> at(rays.size(), untouched);
+    std::vector<SurfacePoint> expected_at(rays.size(), untouched);
+    std::vector<Color> colors(rays.size());
+    std::vector<Color> expected_colors(rays.size());
+    tracer.trace(rays, hits, at, colors);
+    tracer.nearest(rays, expected_hits);
+    tracer.surfaces(rays, expected_hits, expected_at);
+    tracer.shade(rays, expected_hits, expected_at, expected_colors);
+    std::size_t found = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        SCOPED_TRACE("ray " + std::to_string(i));
+        found += expected_hits[i].found() ? 1 : 0;
+        EXPECT_EQ(hits[i], expected_hits[i]);
+        EXPECT_EQ(at[i].point, expected_at[i].point);
+        EXPECT_EQ(at[i].point_error, expected_at[i].point_error);
+        EXPECT_EQ(at[i].geometric_normal, expected_at[i].geometric_normal);
+        EXPECT_EQ(at[i].shading_normal, expected_at[i].shading_normal);
+        EXPECT_EQ(at[i].material, expected_at[i].material);
+        EXPECT_EQ(at[i].face, expected_at[i].face);
+        EXPECT_EQ(colors[i], expected_colors[i]);
+    }
+    EXPECT_GT(found, 0U);
+    EXPECT_LT(found, rays.size());
+    tracer.trace(rays, colors);
+    EXPECT_EQ(colors, expected_colors);
 }
 
 TEST(Generations, ARaisedFlagStopsThem) {

@@ -18,7 +18,7 @@ TEST(SamplePositions, HoldOneInEveryElementaryRectangle) {
                 const std::uint32_t rows = 1U << (digits - across_digits);
                 std::vector<int> count(std::size_t{columns} * rows);
                 for (std::uint32_t i = 0; i < (1U << digits); ++i) {
-                    const SamplePosition position = net_position(pixel, i);
+                    const SamplePosition position = SampleNet(pixel)[i];
                     ASSERT_GE(position.across, 0);
                     ASSERT_LT(position.across, 1);
                     ASSERT_GE(position.down, 0);
@@ -33,8 +33,8 @@ TEST(SamplePositions, HoldOneInEveryElementaryRectangle) {
 }
 
 TEST(SamplePositions, DifferFromPixelToPixel) {
-    EXPECT_NE(net_position(0, 0).across, net_position(1, 0).across);
-    EXPECT_NE(net_position(0, 0).down, net_position(1, 0).down);
+    EXPECT_NE(SampleNet(0)[0].across, SampleNet(1)[0].across);
+    EXPECT_NE(SampleNet(0)[0].down, SampleNet(1)[0].down);
 }
 
 TEST(SamplePositions, OfAPixelFillItsSquareOnAverage) {
@@ -43,7 +43,7 @@ TEST(SamplePositions, OfAPixelFillItsSquareOnAverage) {
     double product = 0;
     constexpr int pixels = 20000;
     for (int pixel = 0; pixel < pixels; ++pixel) {
-        const SamplePosition position = net_position(static_cast<std::uint64_t>(pixel), 3);
+        const SamplePosition position = SampleNet(static_cast<std::uint64_t>(pixel))[3];
         across += position.across / pixels;
         down += position.down / pixels;
         product += (position.across - 0.5) * (position.down - 0.5) / pixels;

@@ -54,45 +54,49 @@ namespace vera {
 
 HWY_EXPORT(unit_sums_kernel);
 
-void CenterRays::find(const Raster& raster, const Tile& tile, std::vector<QueryRay>& rays) {
-    rays.resize(tile.width * tile.height);
+void CenterRays::find(
+    const Raster& raster, const Tile& tile, std::vector<QueryRay>& rays, std::size_t frame_width) {
+    // Counted from the frame's corner, as what lies outside the picture has no pixel's number.
+    const Tile framed = {0, 0, tile.width + 2 * frame_width, tile.height + 2 * frame_width};
+    rays.resize(framed.width * framed.height);
+    const auto frame = static_cast<double>(frame_width);
     const auto across = [&](std::size_t x) {
-        return raster.rays.place_across(raster.across(static_cast<double>(x)));
+        return raster.rays.place_across(raster.across(static_cast<double>(tile.x + x) - frame));
     };
     const auto up = [&](std::size_t y) {
-        return raster.rays.place_up(raster.down(static_cast<double>(y)));
+        return raster.rays.place_up(raster.down(static_cast<double>(tile.y + y) - frame));
     };
     QueryRay* query = rays.data();
     if (raster.rays.projection == Camera::Projection::parallel) {
-        for_each_pixel(tile, [&](std::size_t x, std::size_t y) {
+        for_each_pixel(framed, [&](std::size_t x, std::size_t y) {
             (query++)->ray = raster.rays.ray(across(x), up(y));
         });
         return;
     }
 
     constexpr std::size_t step = 8;
-    const std::size_t stride = (tile.width + step - 1) / step * step;
+    const std::size_t stride = (framed.width + step - 1) / step * step;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         columns_[axis].resize(stride);
-        directions_[axis].resize(stride * tile.height);
+        directions_[axis].resize(stride * framed.height);
     }
     for (std::size_t x = 0; x < stride; ++x) {
-        const Vec3 place = across(tile.x + x);
+        const Vec3 place = across(x);
         for (std::size_t axis = 0; axis < 3; ++axis)
             columns_[axis][x] = place[axis];
     }
     const std::array<const double*, 3> columns = {
         columns_[0].data(), columns_[1].data(), columns_[2].data()};
-    for (std::size_t y = 0; y < tile.height; ++y)
+    for (std::size_t y = 0; y < framed.height; ++y)
         HWY_DYNAMIC_DISPATCH(unit_sums_kernel)
     (columns,
-     up(tile.y + y),
+     up(y),
      stride,
      {directions_[0].data() + y * stride,
       directions_[1].data() + y * stride,
       directions_[2].data() + y * stride});
-    for_each_pixel(tile, [&](std::size_t x, std::size_t y) {
-        const std::size_t place = (y - tile.y) * stride + (x - tile.x);
+    for_each_pixel(framed, [&](std::size_t x, std::size_t y) {
+        const std::size_t place = y * stride + x;
         query->ray.origin = raster.rays.origin_or_direction;
         query->ray.direction = {
             directions_[0][place], directions_[1][place], directions_[2][place]};

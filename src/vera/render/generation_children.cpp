@@ -38,9 +38,12 @@ void GenerationTracer::trace_children(std::uint32_t level, std::span<Color> colo
         const std::size_t count = std::min(size, work.children.size() - first);
         next.terms =
             work.terms == nullptr ? nullptr : work.child_terms.data() + first * next.term_stride;
+        next.hits.resize(count);
         trace_part(
             level + 1,
             std::span(work.child_rays).subspan(first, count),
+            next.hits,
+            {},
             std::span(work.child_colors).subspan(first, count));
     }
     next.terms = nullptr;

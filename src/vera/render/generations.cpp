@@ -123,26 +123,55 @@ void GenerationTracer::trace(std::span<const QueryRay> rays, std::span<Color> co
     const std::size_t size = std::min(traced_.generation_size, rays.size());
     for (std::size_t first = 0; first < rays.size(); first += size) {
         const std::size_t count = std::min(size, rays.size() - first);
-        trace_part(1, rays.subspan(first, count), colors.subspan(first, count));
+        Level& work = level_buffers(1);
+        work.hits.resize(count);
+        trace_part(1, rays.subspan(first, count), work.hits, {}, colors.subspan(first, count));
     }
 }
 
+void GenerationTracer::trace(
+    std::span<const QueryRay> rays,
+    std::span<Hit> hits,
+    std::span<SurfacePoint> at,
+    std::span<Color> colors) {
+    const std::size_t size = std::min(traced_.generation_size, rays.size());
+    for (std::size_t first = 0; first < rays.size(); first += size) {
+        const std::size_t count = std::min(size, rays.size() - first);
+        trace_part(
+            1,
+            rays.subspan(first, count),
+            hits.subspan(first, count),
+            at.subspan(first, count),
+            colors.subspan(first, count));
+    }
+}
+
+/// Where nobody asks where the rays meet a face, at is empty.
 void GenerationTracer::trace_part(
-    std::uint32_t level, std::span<const QueryRay> rays, std::span<Color> colors) {
+    std::uint32_t level,
+    std::span<const QueryRay> rays,
+    std::span<Hit> hits,
+    std::span<SurfacePoint> at,
+    std::span<Color> colors) {
     Level& work = level_buffers(level);
-    work.hits.resize(rays.size());
-    nearest(rays, work.hits);
+    nearest(rays, hits);
     find_places(
         work,
         rays,
-        work.hits,
+        hits,
         [&](std::span<const Place> places, PlaceBlock& block) {
             std::array<MetFace, block_size> met;
             for (std::size_t lane = 0; lane < places.size(); ++lane) {
                 const std::uint32_t ray = places[lane].ray;
-                met[lane] = {&rays[ray].ray, &work.hits[ray]};
+                met[lane] = {&rays[ray].ray, &hits[ray]};
             }
-            return put_surfaces(traced_.scene, std::span(met).first(places.size()), block);
+            const std::array<MaterialId, block_size> materials =
+                put_surfaces(traced_.scene, std::span(met).first(places.size()), block);
+            if (!at.empty())
+                for (std::size_t lane = 0; lane < places.size(); ++lane)
+                    at[places[lane].ray] =
+                        surface_in(block, lane, materials[lane], met[lane].hit->face);
+            return materials;
         },
         colors);
     shade_places(level, colors);

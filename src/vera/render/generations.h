@@ -80,6 +80,13 @@ public:
     /// What the rays see: all of the above.
     void trace(std::span<const QueryRay> rays, std::span<Color> colors);
 
+    /// The same, which tells what they meet as well, and where.
+    void trace(
+        std::span<const QueryRay> rays,
+        std::span<Hit> hits,
+        std::span<SurfacePoint> at,
+        std::span<Color> colors);
+
     /// How the terms of this scene's rays are numbered.
     RayTerms terms() const { return {traced_.illumination.lights.size()}; }
 
@@ -130,7 +137,12 @@ private:
         Buffer<Color> child_terms;
     };
 
-    void trace_part(std::uint32_t level, std::span<const QueryRay> rays, std::span<Color> colors);
+    void trace_part(
+        std::uint32_t level,
+        std::span<const QueryRay> rays,
+        std::span<Hit> hits,
+        std::span<SurfacePoint> at,
+        std::span<Color> colors);
     /// put_surfaces_of(places, block) puts up to block_size places into a block, and returns their
     /// materials.
     template <typename PutSurfaces>

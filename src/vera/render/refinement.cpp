@@ -154,13 +154,15 @@ void TileRefiner::see_all_centers() {
     // Colours are compared across the tile's border, by one pixel; farther out it matters only
     // what is seen.
     const std::size_t stride = tile_.width + 2 * frame;
-    rays_.clear();
+    constexpr std::size_t compared = 1;
+    center_rays_.find(picture_.raster, tile_, rays_, compared);
     targets_.clear();
-    const Tile compared = {frame - 1, frame - 1, tile_.width + 2, tile_.height + 2};
-    for_each_pixel(compared, [&](std::size_t x, std::size_t y) {
-        targets_.push_back(y * stride + x);
-        rays_.push_back(center_ray(targets_.back()));
-    });
+    for_each_pixel(
+        {frame - compared,
+         frame - compared,
+         tile_.width + 2 * compared,
+         tile_.height + 2 * compared},
+        [&](std::size_t x, std::size_t y) { targets_.push_back(y * stride + x); });
     trace_samples();
     tracer_.statistics.extra_view_rays += rays_.size() - pixels_.size();
     for (std::size_t i = 0; i < targets_.size(); ++i) {
@@ -363,24 +365,24 @@ void TileRefiner::trace_samples() {
     hits_.resize(rays_.size());
     surfaces_.resize(rays_.size());
     colors_.resize(rays_.size());
-    tracer_.nearest(rays_, hits_);
-    tracer_.surfaces(rays_, hits_, surfaces_);
-    tracer_.shade(rays_, hits_, surfaces_, colors_);
+    tracer_.trace(rays_, hits_, surfaces_, colors_);
     tracer_.statistics.view_rays += rays_.size();
 }
 
 void TileRefiner::shade_samples() {
     rays_.clear();
     samples_.clear();
-    for (const Job& job : jobs_)
+    for (const Job& job : jobs_) {
+        const SampleNet net(picture_pixel(job.pixel));
         for (std::uint32_t sample = job.first_shaded; sample < job.last_shaded; ++sample) {
             const bool is_shaded =
                 strata_.any(pixels_[job.pixel].strata, [&](const Stratum& stratum) {
                     return stratum.shaded_ahead == sample;
                 });
             if (!is_shaded)
-                send_sample(job.pixel, sample);
+                send_sample(job.pixel, net, sample);
         }
+    }
     trace_samples();
     tracer_.statistics.extra_view_rays += rays_.size();
 
@@ -402,8 +404,9 @@ void TileRefiner::cover_pixels() {
     for (const Job& job : jobs_) {
         Pixel& pixel = pixels_[job.pixel];
         const std::uint32_t wanted = covered_wanted(pixel);
+        const SampleNet net(picture_pixel(job.pixel));
         for (std::uint32_t sample = pixel.covered; sample < wanted; ++sample)
-            send_sample(job.pixel, sample);
+            send_sample(job.pixel, net, sample);
         pixel.covered = std::max(pixel.covered, wanted);
     }
     probe();
@@ -436,12 +439,12 @@ void TileRefiner::cover_pixels() {
         strata_[targets_[i]].add(clamped(colors_[i]));
 }
 
-void TileRefiner::send_sample(std::size_t pixel, std::uint32_t sample) {
+void TileRefiner::send_sample(std::size_t pixel, const SampleNet& net, std::uint32_t sample) {
     samples_.push_back({pixel, sample});
     rays_.push_back(picture_.raster.ray(
         static_cast<double>(tile_.x + pixel % tile_.width),
         static_cast<double>(tile_.y + pixel / tile_.width),
-        net_position(picture_pixel(pixel), sample)));
+        net[sample]));
 }
 
 bool TileRefiner::sees_thin_things(const Pixel& pixel, std::size_t number) const {

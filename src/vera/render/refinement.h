@@ -2,9 +2,11 @@
 #pragma once
 
 #include "vera/image/image.h"
+#include "vera/render/center_rays.h"
 #include "vera/render/generations.h"
 #include "vera/render/pixel_strata.h"
 #include "vera/render/raster.h"
+#include "vera/render/sample_positions.h"
 #include "vera/render/seen.h"
 #include "vera/render/tiles.h"
 #include "vera/scene/picture_settings.h"
@@ -128,7 +130,7 @@ private:
     void end_strata(Pixel& pixel);
     void shade_samples();
     void cover_pixels();
-    void send_sample(std::size_t pixel, std::uint32_t sample);
+    void send_sample(std::size_t pixel, const SampleNet& net, std::uint32_t sample);
     bool sees_thin_things(const Pixel& pixel, std::size_t number) const;
     void follow_thin_things();
     void look_along_side(std::size_t pixel, Refinement refinement, std::size_t x, std::size_t y);
@@ -152,6 +154,7 @@ private:
 
     const RefinedPicture& picture_;
     GenerationTracer tracer_;
+    CenterRays center_rays_;
 
     Tile tile_;
     std::vector<Seen> centers_;          ///< of the tile and a frame of two pixels around it

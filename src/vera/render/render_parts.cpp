@@ -64,10 +64,9 @@ void soften_horizon(const TracedScene& traced, const Raster& raster, BandWork& w
         if (!differs(0, 0) && !differs(1, 0) && !differs(0, 1) && !differs(1, 1))
             continue;
         Color sum;
-        const std::uint64_t pixel = std::uint64_t{part.y} * raster.width + part.x;
+        const SampleNet net(std::uint64_t{part.y} * raster.width + part.x);
         for (std::uint32_t sample = 0; sample < samples; ++sample)
-            sum +=
-                clamped(firmament_color(firmament, direction(part, net_position(pixel, sample))));
+            sum += clamped(firmament_color(firmament, direction(part, net[sample])));
         work.colors[i] = (1.0 / samples) * sum;
     }
 }

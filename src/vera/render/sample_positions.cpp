@@ -42,10 +42,14 @@ constexpr std::uint32_t owen_scrambled(std::uint32_t bits, std::uint64_t seed) {
 
 } // namespace
 
-SamplePosition net_position(std::uint64_t pixel, std::uint32_t i) {
+SampleNet::SampleNet(std::uint64_t pixel)
+    : across_seed_(random(0, pixel, 0))
+    , down_seed_(random(0, pixel, 1)) {}
+
+SamplePosition SampleNet::operator[](std::uint32_t i) const {
     return {
-        to_unit * owen_scrambled(reversed(i), random(0, pixel, 0)),
-        to_unit * owen_scrambled(second_sobol(i), random(0, pixel, 1))};
+        to_unit * owen_scrambled(reversed(i), across_seed_),
+        to_unit * owen_scrambled(second_sobol(i), down_seed_)};
 }
 
 SamplePosition probe_position(std::size_t x, std::size_t y) {

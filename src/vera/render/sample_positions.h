@@ -12,9 +12,18 @@ struct SamplePosition {
     double down = 0.5;
 };
 
-/// Sample number i of a pixel. The first 2^k of them are a (0, k, 2)-net for each k: every
-/// rectangle of 2^a by 2^b equal parts, a + b = k, holds one. Each pixel has a net of its own.
-SamplePosition net_position(std::uint64_t pixel, std::uint32_t i);
+/// The samples of a pixel. The first 2^k of them are a (0, k, 2)-net for each k: every rectangle of
+/// 2^a by 2^b equal parts, a + b = k, holds one. Each pixel has a net of its own.
+class SampleNet {
+public:
+    explicit SampleNet(std::uint64_t pixel);
+
+    SamplePosition operator[](std::uint32_t i) const;
+
+private:
+    std::uint64_t across_seed_;
+    std::uint64_t down_seed_;
+};
 
 /// One place in each pixel, so that those of neighbours along rows, columns and diagonals are
 /// spread evenly.
