@@ -7,6 +7,7 @@
 #include "grid_picture.h"
 #include "interrupt.h"
 #include "messages.h"
+#include "named_parts.h"
 #include "prepared_scene.h"
 #include "progress_display.h"
 #include <CLI/CLI.hpp>
@@ -192,10 +193,15 @@ void print_info(const Request& request, const Console& console) {
     if (request.json) {
         json["bvh"] = bvh_json(bvh_forecast, bvh);
         json["grid"] = grid_json(forecast, grid);
-        fmt::print("{}\n", json.dump(2));
+        if (auto parts = named_parts_json(prepared.scene); !parts.empty())
+            json["named_parts"] = std::move(parts);
+        // Names are as their files have them.
+        fmt::print(
+            "{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
         return;
     }
     print_scene(json);
+    print_named_parts(prepared.scene);
     print_bvh(bvh_forecast, bvh);
     print_grid(forecast, grid);
 }

@@ -71,6 +71,43 @@ TEST(DrawCommand, GivesEachPrimitiveItsNumberForColourInTheOrderOfTheText) {
     EXPECT_FALSE(holds(svg, "line 6")) << svg;
 }
 
+TEST(DrawCommand, GroupsFacesOfObjFilesByTheirNames) {
+    const ScratchFolder folder;
+    // Of the two squares in one plane each is a face, as they are of two groups.
+    folder.write(
+        "a.obj",
+        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0\no a \"chair\"\ng seat <1>\n"
+        "f 1 2 3 4\ng back\nf 2 5 6 3\n");
+    ASSERT_EQ(run_vera(folder, "draw a.obj -o a.svg").exit_code, 0);
+    const std::string svg = folder.read("a.svg");
+    for (const char* part :
+         {"<g id=\"object-1\" data-name=\"a &quot;chair&quot;\" "
+          "inkscape:label=\"a &quot;chair&quot;\">\n<title>a &quot;chair&quot;</title>\n"
+          "<g id=\"part-1\" data-name=\"seat &lt;1&gt;\" inkscape:label=\"seat &lt;1&gt;\">\n",
+          "<path id=\"face-1\"",
+          "</g>\n<g id=\"part-3\" data-name=\"back\" inkscape:label=\"back\">\n",
+          "<path id=\"face-3\""})
+        EXPECT_TRUE(holds(svg, part)) << part << '\n' << svg;
+    EXPECT_EQ(count_of(svg, "<path id=\"face-"), 2U) << svg;
+    // In a scene within the mesh, whether that has a material or is placed.
+    folder.write("b.vera", view + "MESH \"a.obj\"\nMESH \"a.obj\" TR -2 1 0\n");
+    ASSERT_EQ(run_vera(folder, "draw b.vera -o b.svg").exit_code, 0);
+    const std::string scene = folder.read("b.svg");
+    for (const char* part :
+         {"<g id=\"object-1\" data-name=\"a.obj\" inkscape:label=\"a.obj\">\n",
+          "<g id=\"part-1\" data-name=\"a &quot;chair&quot;\" ",
+          "<g id=\"group-3\" class=\"material-grey\" data-material=\"grey\" data-name=\"back\" ",
+          "<g id=\"object-5\" inkscape:label=\"a.obj, line 6\">\n",
+          "<g id=\"part-5\" data-name=\"a &quot;chair&quot;\" ",
+          "<g id=\"group-7\" class=\"material-grey\" data-material=\"grey\" data-name=\"back\" "})
+        EXPECT_TRUE(holds(scene, part)) << part << '\n' << scene;
+    // Each triangle has its number in style ids, and lines go round no part.
+    ASSERT_EQ(run_vera(folder, "draw a.obj --style ids -o ids.svg").exit_code, 0);
+    EXPECT_EQ(of_outlines(folder.read("ids.svg"), "fill").size(), 4U);
+    ASSERT_EQ(run_vera(folder, "draw a.obj --style lines -o lines.svg").exit_code, 0);
+    EXPECT_FALSE(holds(folder.read("lines.svg"), "crease"));
+}
+
 TEST(DrawCommand, NamesFacesByTheirStatementsAndLaysWhatHangsTogetherBelowThem) {
     const ScratchFolder folder;
     // Two walls that meet, one of them of a subscene, and one by itself.

@@ -171,6 +171,16 @@ TEST(WriteSvg, NestsGroupsAndTellsTheirMaterials) {
             + path + "</g>\n</g>\n</svg>\n"));
 }
 
+TEST(WriteSvg, TellsScriptsTheNamesThatGroupsWereGiven) {
+    Drawing drawing = sample_drawing();
+    drawing.fills[0].group = std::make_shared<const DrawingGroup>(
+        DrawingGroup{.id = "object-1", .name = "chair, red", .given = "caf\xC3\xA9 \"\xE9\""});
+    EXPECT_THAT(
+        written(write_svg, drawing),
+        HasSubstr("<g id=\"object-1\" data-name=\"caf\xC3\xA9 &quot;\xEF\xBF\xBD&quot;\" "
+                  "inkscape:label=\"chair, red\">\n<title>chair, red</title>\n"));
+}
+
 TEST(WriteSvg, PaintsClassesInTheirOrderAndThoseWithoutAStyleAnyhow) {
     Drawing drawing;
     drawing.strokes = {

@@ -4,6 +4,7 @@
 #include "vera/base/parallel.h"
 #include "vera/visible/coplanar_patches.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <numeric>
@@ -94,16 +95,23 @@ private:
     const Mesh& mesh_;
 };
 
-/// Passes the smallest number on between neighbours until nothing changes.
-std::vector<std::uint32_t> patches_by_all_pairs(const Mesh& mesh) {
+/// Passes the smallest number on between neighbours that no end parts until nothing changes.
+std::vector<std::uint32_t>
+patches_by_all_pairs(const Mesh& mesh, const std::vector<std::uint32_t>& ends = {}) {
     const WholeTriangles triangles(mesh);
     std::vector<std::uint32_t> first(mesh.triangle_count());
     std::iota(first.begin(), first.end(), 0U);
+    const auto are_parted = [&](std::size_t one, std::size_t other) {
+        return std::any_of(ends.begin(), ends.end(), [&](std::uint32_t end) {
+            return (one < end) != (other < end);
+        });
+    };
     for (bool changed = true; changed;) {
         changed = false;
         for (std::size_t one = 0; one < first.size(); ++one)
             for (std::size_t other = 0; other < first.size(); ++other)
-                if (first[one] < first[other] && triangles.are_neighbours(one, other)) {
+                if (first[one] < first[other] && triangles.are_neighbours(one, other)
+                    && !are_parted(one, other)) {
                     first[other] = first[one];
                     changed = true;
                 }
@@ -112,8 +120,9 @@ std::vector<std::uint32_t> patches_by_all_pairs(const Mesh& mesh) {
 }
 
 /// With each by itself where the patches are none.
-std::vector<std::uint32_t> all_firsts(const Mesh& mesh) {
-    std::vector<std::uint32_t> first = coplanar_patches(mesh);
+std::vector<std::uint32_t>
+all_firsts(const Mesh& mesh, const std::vector<std::uint32_t>& ends = {}) {
+    std::vector<std::uint32_t> first = coplanar_patches(mesh, ends);
     if (first.empty()) {
         first.resize(mesh.triangle_count());
         std::iota(first.begin(), first.end(), 0U);
@@ -165,6 +174,22 @@ TEST(CoplanarPatches, AreThoseOfASearchThroughAllPairs) {
     }
     EXPECT_GT(joined, 1000U);
     EXPECT_GT(apart, 1000U);
+}
+
+TEST(CoplanarPatches, DoNotGoBeyondTheEndsOfStretches) {
+    std::mt19937 random(58);
+    std::size_t more = 0;
+    for (std::size_t round = 0; round < 200; ++round) {
+        const Mesh mesh = random_field(random, 2 + below(random, 3), 1);
+        std::vector<std::uint32_t> ends;
+        for (std::uint32_t i = 1; i < mesh.triangle_count(); ++i)
+            if (below(random, 6) == 0)
+                ends.push_back(i);
+        const std::vector<std::uint32_t> expected = patches_by_all_pairs(mesh, ends);
+        ASSERT_EQ(all_firsts(mesh, ends), expected) << "round " << round;
+        more += count_patches(expected) - count_patches(patches_by_all_pairs(mesh));
+    }
+    EXPECT_GT(more, 200U);
 }
 
 TEST(CoplanarPatches, AreTheSameForAnyNumberOfThreads) {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <map>
+#include <random>
 #include <set>
 #include <string>
 #include <vector>
@@ -135,6 +136,149 @@ TEST(ObjectGroups, OfStatementsThatStandInNoTextAreOneOfAKindAndMaterial) {
         "object-4 [sphere, line 7]"};
     for (std::uint64_t i = 0; i < expected.size(); ++i)
         EXPECT_EQ(text_of(groups.of(i).get()), expected[i]) << i;
+}
+
+Mesh mesh_of(std::size_t triangles) {
+    Mesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    for (std::size_t i = 0; i < triangles; ++i)
+        mesh.position_indices.insert(mesh.position_indices.end(), {0, 1, 2});
+    return mesh;
+}
+
+/// Meshes of 4 red triangles and 2 blue ones: the first is in no part, then an object with a group
+/// of two and two of its own, one of them blue, then another object.
+void add_named_meshes(Geometry& geometry) {
+    geometry.meshes = {mesh_of(4), mesh_of(2)};
+    geometry.items = {
+        item(ItemKind::mesh, 3, MaterialId{0}), item(ItemKind::mesh, 7, MaterialId{1})};
+    geometry.items[1].index = 1;
+    geometry.named_parts = {
+        {"chair", {0, 1}, {1, 1}}, {"legs", {0, 1}, {0, 3}, 0}, {"table", {1, 1}, {2, 0}}};
+}
+
+std::vector<std::string> texts_of(const Scene& scene) {
+    const auto materials = drawing_materials(scene);
+    ObjectGroups groups(scene, materials);
+    std::vector<std::string> texts;
+    for (std::uint64_t i = 0; i < scene.geometry.primitive_count; ++i)
+        texts.push_back(text_of(groups.of(i).get()));
+    return texts;
+}
+
+TEST(ObjectGroups, AreTheNamedPartsOfAFile) {
+    Scene scene;
+    scene.materials.emplace_back().name = "red";
+    scene.materials.emplace_back().name = "blue";
+    add_named_meshes(scene.geometry);
+    number_primitives(scene);
+    const std::vector<std::string> expected = {
+        "object-1 [mesh, line 3] red .material-red",
+        "object-2 [chair] > part-2 [legs] red .material-red",
+        "object-2 [chair] > part-2 [legs] red .material-red",
+        "object-2 [chair] > part-4 [red] red .material-red",
+        "object-2 [chair] > part-5 [blue] blue .material-blue",
+        "object-6 [table] blue .material-blue"};
+    EXPECT_EQ(texts_of(scene), expected);
+    // Also of one that is not seen from its first primitive on; and one object stays one.
+    const auto materials = drawing_materials(scene);
+    ObjectGroups groups(scene, materials);
+    const auto legs = groups.of(2);
+    EXPECT_EQ(text_of(legs.get()), expected[2]);
+    EXPECT_EQ(groups.of(4)->parent, legs->parent);
+    EXPECT_EQ(text_of(groups.of(5).get()), expected[5]);
+    // For scripts, the names of the file and no others.
+    ObjectGroups again(scene, materials);
+    EXPECT_EQ(again.of(0)->given, "");
+    EXPECT_EQ(again.of(1)->given, "legs");
+    EXPECT_EQ(again.of(3)->given, "");
+    EXPECT_EQ(again.of(3)->parent->given, "chair");
+}
+
+TEST(ObjectGroups, OfNamedPartsStandInTheCallsOfTheirFile) {
+    Scene scene;
+    scene.materials.emplace_back().name = "red";
+    scene.materials.emplace_back().name = "blue";
+    Geometry& file = scene.subscenes.emplace_back();
+    file.name = "a.obj";
+    add_named_meshes(file);
+    scene.geometry.calls.resize(2);
+    scene.geometry.items = {item(ItemKind::subscene_call, 8), item(ItemKind::subscene_call, 9)};
+    scene.geometry.items[1].index = 1;
+    number_primitives(scene);
+    const std::vector<std::string> expected = {
+        "object-1 [a.obj, line 8] > part-1 [mesh of a.obj, line 3] red .material-red",
+        "object-1 [a.obj, line 8] > part-2 [chair] > group-2 [legs] red .material-red",
+        "object-1 [a.obj, line 8] > part-2 [chair] > group-2 [legs] red .material-red",
+        "object-1 [a.obj, line 8] > part-2 [chair] > group-4 [red] red .material-red",
+        "object-1 [a.obj, line 8] > part-2 [chair] > group-5 [blue] blue .material-blue",
+        "object-1 [a.obj, line 8] > part-6 [table] blue .material-blue",
+        "object-7 [a.obj, line 9] > part-7 [mesh of a.obj, line 3] red .material-red",
+        "object-7 [a.obj, line 9] > part-8 [chair] > group-8 [legs] red .material-red",
+        "object-7 [a.obj, line 9] > part-8 [chair] > group-8 [legs] red .material-red",
+        "object-7 [a.obj, line 9] > part-8 [chair] > group-10 [red] red .material-red",
+        "object-7 [a.obj, line 9] > part-8 [chair] > group-11 [blue] blue .material-blue",
+        "object-7 [a.obj, line 9] > part-12 [table] blue .material-blue"};
+    EXPECT_EQ(texts_of(scene), expected);
+}
+
+/// Of random parts in random meshes: groups are those that a look at all parts tells, each id is of
+/// one group, and a group holds faces or groups.
+TEST(ObjectGroups, OfRandomPartsHoldFacesOrGroups) {
+    std::mt19937 random(31);
+    std::size_t deepest = 0;
+    for (int round = 0; round < 200; ++round) {
+        Scene scene;
+        scene.materials.resize(2);
+        Geometry& geometry = scene.geometry;
+        std::vector<Element> elements;
+        const std::size_t meshes = 1 + random() % 3;
+        for (std::uint32_t i = 0; i < meshes; ++i) {
+            geometry.meshes.push_back(mesh_of(1 + random() % 5));
+            geometry.items.push_back(item(ItemKind::mesh, i + 1, MaterialId{i % 2}));
+            geometry.items.back().index = i;
+            for (std::uint32_t k = 0; k < geometry.meshes.back().triangle_count(); ++k)
+                elements.push_back({i, k});
+        }
+        elements.push_back({static_cast<std::uint32_t>(meshes), 0});
+        for (std::size_t i = 0; i + 1 < elements.size();) {
+            const std::size_t end = std::min(elements.size() - 1, i + 1 + random() % 5);
+            const auto whole = static_cast<std::uint32_t>(geometry.named_parts.size());
+            if (random() % 3 != 0) {
+                geometry.named_parts.push_back({"whole", elements[i], elements[end]});
+                const std::size_t from = i + random() % (end - i);
+                if (random() % 2 == 0)
+                    geometry.named_parts.push_back(
+                        {"within", elements[from], elements[end], whole});
+            }
+            i = end;
+        }
+        number_primitives(scene);
+        const std::vector<std::string> texts = texts_of(scene);
+        std::set<std::string> ended;
+        for (std::size_t i = 0; i < texts.size(); ++i) {
+            std::string names;
+            for (const NamedPart& part : geometry.named_parts)
+                if (part.first <= elements[i] && elements[i] < part.end)
+                    names += "[" + part.name + "]";
+            std::string told;
+            for (std::size_t at = texts[i].find("[w"); at != std::string::npos;
+                 at = texts[i].find("[w", at + 1))
+                told += texts[i].substr(at, texts[i].find(']', at) + 1 - at);
+            EXPECT_EQ(told, names) << texts[i];
+            EXPECT_TRUE(
+                texts[i].ends_with(elements[i].item % 2 == 0 ? " .material-1" : " .material-2"));
+            deepest += std::ranges::count(texts[i], '>') == 2 ? 1 : 0;
+            if (i == 0 || texts[i] == texts[i - 1])
+                continue;
+            EXPECT_FALSE(ended.contains(texts[i])) << texts[i];
+            ended.insert(texts[i - 1]);
+            // No group of the one goes on as the innermost one of the other.
+            EXPECT_FALSE(texts[i].starts_with(texts[i - 1] + " > ")) << texts[i];
+            EXPECT_FALSE(texts[i - 1].starts_with(texts[i] + " > ")) << texts[i];
+        }
+    }
+    EXPECT_GT(deepest, 100U);
 }
 
 /// Of random scenes, in which subscenes are called by others, every face stands in the groups that

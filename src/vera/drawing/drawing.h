@@ -88,6 +88,7 @@ struct DrawingMaterial {
 struct DrawingGroup {
     std::string id = {};
     std::string name = {};                                ///< for people; may be empty
+    std::string given = {};                               ///< name in a file, for scripts
     std::shared_ptr<const DrawingMaterial> material = {}; ///< of all in it; or none
     std::shared_ptr<const DrawingGroup> parent = {};      ///< that it is part of; or none
 };
@@ -99,7 +100,7 @@ inline bool is_same_group(const DrawingGroup* a, const DrawingGroup* b) {
             || (a->material && b->material && *a->material == *b->material);
     };
     for (; a != b && a != nullptr && b != nullptr; a = a->parent.get(), b = b->parent.get())
-        if (a->id != b->id || a->name != b->name || !have_one_material())
+        if (a->id != b->id || a->name != b->name || a->given != b->given || !have_one_material())
             return false;
     return a == b;
 }

@@ -64,8 +64,13 @@ void write_eps(
             i,
             shading_pattern(gradients[i]),
             pattern_matrix(gradients[i], page, drawing.width));
-    const LayerMarks marks = {
-        [](std::size_t, const std::string& name) { return "% " + plain_line(name) + "\n"; }, ""};
+    const PageMarks marks = {
+        [](std::size_t, const std::string& name) { return "% " + plain_line(name) + "\n"; },
+        "",
+        [](const std::string& name, std::size_t) {
+            return "%%BeginObject: " + plain_line(name) + "\n";
+        },
+        "%%EndObject\n"};
     bytes +=
         page_content(drawing, settings, lattice, content, gradients, marks, stages.next(1), cancel);
     bytes += "grestore\nend\n%%EOF\n";

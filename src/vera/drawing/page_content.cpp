@@ -3,9 +3,13 @@
 
 #include "vera/base/long_loop.h"
 #include "vera/base/progress_part.h"
+#include "vera/drawing/open_groups.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <iterator>
+#include <memory>
 #include <span>
 #include <utility>
 
@@ -136,6 +140,64 @@ private:
     std::string last_paint_; ///< of the two
 };
 
+/// That of the outline or, of one that has none, one by its id, as the underlays have: where an
+/// object is hidden they are seen, and so are to be hidden as well.
+std::shared_ptr<const DrawingGroup> told_group(const FilledOutline& outline) {
+    if (outline.group || outline.id.empty())
+        return outline.group;
+    return std::make_shared<const DrawingGroup>(DrawingGroup{.id = outline.id});
+}
+
+/// Down to which depth there are no more groups than are told.
+std::size_t told_depth(const Layers& layers) {
+    std::vector<std::size_t> of_depth;
+    OpenGroups groups;
+    for (const FilledPath& fill : layers.fills)
+        groups.go_to(
+            told_group(*fill.outline),
+            [&](const DrawingGroup&, std::size_t depth) {
+                of_depth.resize(std::max(of_depth.size(), depth + 1));
+                ++of_depth[depth];
+            },
+            [] {});
+    std::size_t depth = 0;
+    for (std::size_t told = 0; depth < of_depth.size(); ++depth)
+        if ((told += of_depth[depth]) > most_page_groups)
+            break;
+    return depth;
+}
+
+/// Marks of the groups between the outlines, but for those that are not told.
+class GroupWriter {
+public:
+    GroupWriter(const Layers& layers, const PageMarks& marks, PageWriter& page)
+        : told_depth_(told_depth(layers))
+        , marks_(marks)
+        , page_(page) {}
+
+    void go_to(const std::shared_ptr<const DrawingGroup>& group) {
+        groups_.go_to(
+            group,
+            [&](const DrawingGroup& begun, std::size_t depth) {
+                open_ = depth + 1;
+                if (depth < told_depth_)
+                    page_.write(
+                        marks_.begin_group(begun.name.empty() ? begun.id : begun.name, depth));
+            },
+            [&] {
+                if (--open_ < told_depth_)
+                    page_.write(marks_.end_group);
+            });
+    }
+
+private:
+    std::size_t told_depth_;
+    const PageMarks& marks_;
+    PageWriter& page_;
+    OpenGroups groups_;
+    std::size_t open_ = 0;
+};
+
 } // namespace
 
 std::vector<std::string> layer_names(const Layers& layers) {
@@ -153,7 +215,7 @@ std::string page_content(
     const Lattice& lattice,
     const Layers& layers,
     const Gradients& gradients,
-    const LayerMarks& marks,
+    const PageMarks& marks,
     const Progress& progress,
     const CancelFlag* cancel) {
     constexpr int butt_cap = 0;
@@ -167,24 +229,27 @@ std::string page_content(
     if (drawing.background)
         page.fill_picture(drawing);
     if (layers.is_filled) {
-        page.write(marks.begin(number, names[number]));
+        page.write(marks.begin_layer(number, names[number]));
         ++number;
         page.set_pen(settings.seam_width, butt_cap, {});
+        GroupWriter groups(layers, marks, page);
         const LongLoop loop(
             layers.fills.size() + drawing.areas.count(), stages.next(1), cancel, 256);
         for_each_block_of_fills(
             drawing, layers, lattice, [&](std::size_t done, std::span<const FilledPath> fills) {
                 for (const FilledPath& fill : fills) {
                     loop.turn(done++);
+                    groups.go_to(told_group(*fill.outline));
                     page.fill(fill.rings, *fill.outline);
                     if (!fill.seams.empty())
                         page.stroke_seams(fill.seams, *fill.outline);
                 }
             });
-        page.write(marks.end);
+        groups.go_to(nullptr);
+        page.write(marks.end_layer);
     }
     for (const LineLayer& layer : layers.lines) {
-        page.write(marks.begin(number, names[number]));
+        page.write(marks.begin_layer(number, names[number]));
         ++number;
         const LineStyle& style = layer.style;
         page.set_pen(style.width, style.dashes.empty() ? round_cap : butt_cap, style.dashes);
@@ -193,7 +258,7 @@ std::string page_content(
             loop.turn(i);
             page.stroke({&layer.lines[i], 1}, style.color);
         }
-        page.write(marks.end);
+        page.write(marks.end_layer);
     }
     page.end_page();
     return page.take();

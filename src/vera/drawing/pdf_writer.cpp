@@ -4,6 +4,7 @@
 #include "vera/base/random.h"
 #include "vera/drawing/document_text.h"
 #include "vera/drawing/page_content.h"
+#include "vera/drawing/pdf_layers.h"
 #include "vera/drawing/xmp_packet.h"
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -175,6 +177,30 @@ private:
     std::size_t packed_in_ = 0; ///< the object that holds the packed ones; 0: there are none
 };
 
+std::string information_object(const Drawing& drawing) {
+    std::string texts = "/Producer(VERA)";
+    if (!drawing.title.empty())
+        texts += "/Title" + pdf_string(drawing.title);
+    if (!drawing.description.empty())
+        texts += "/Subject" + pdf_string(drawing.description);
+    return "<<" + texts + ">>";
+}
+
+/// Not packed, so that programs that do not read PDF find it as well.
+std::string metadata_object(const Drawing& drawing) {
+    const std::string packet = xmp_packet(drawing.title, drawing.description);
+    return fmt::format(
+        "<</Type/Metadata/Subtype/XML/Length {}>>\nstream\n{}\nendstream", packet.size(), packet);
+}
+
+/// "/P0 10 0 R/P1 11 0 R", by which a page calls the patterns of gradients.
+std::string pattern_resources(const Gradients& gradients, std::size_t first_pattern) {
+    std::string patterns;
+    for (std::size_t i = 0; i < gradients.count(); ++i)
+        patterns += fmt::format("/P{} {} 0 R", i, first_pattern + i);
+    return patterns.empty() ? patterns : "/Pattern<<" + patterns + ">>";
+}
+
 } // namespace
 
 void write_pdf(
@@ -190,66 +216,62 @@ void write_pdf(
     const Layers drawn =
         layers(drawing, settings, lattice, LaterOutlines::at_once, stages.next(1), cancel);
     const Gradients gradients(drawn.fills);
-    const std::vector<std::string> names = layer_names(drawn);
     const PageSize size = page_size(drawing, settings);
+    PdfLayers optional = {layer_names(drawn), {}, first_layer};
+    const std::size_t metadata = first_layer + optional.names.size();
+    const std::size_t first_packed = metadata + 1; // the patterns, then the groups
+    optional.first_group = first_packed + gradients.count();
 
-    std::string references;
-    std::string resources;
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        references += fmt::format("{}{} 0 R", i == 0 ? "" : " ", first_layer + i);
-        resources += fmt::format("/L{} {} 0 R", i, first_layer + i);
-    }
-    std::string layer_list;
-    if (!names.empty())
-        layer_list =
-            fmt::format("/OCProperties<</OCGs[{0}]/D<</Order[{0}]/ON[{0}]>>>>", references);
-
-    const std::size_t metadata = first_layer + names.size();
-    const std::size_t first_pattern = metadata + 1;
-    std::string patterns;
-    for (std::size_t i = 0; i < gradients.count(); ++i)
-        patterns += fmt::format("/P{} {} 0 R", i, first_pattern + i);
-    if (!patterns.empty())
-        patterns = "/Pattern<<" + patterns + ">>";
-
-    const LayerMarks marks = {
+    const PageMarks marks = {
         [](std::size_t layer, const std::string&) { return fmt::format("/OC /L{} BDC\n", layer); },
+        "EMC\n",
+        [&](const std::string& name, std::size_t depth) {
+            optional.groups.push_back({name, depth});
+            return fmt::format("/OC /G{} BDC\n", optional.groups.size() - 1);
+        },
         "EMC\n"};
     const std::string text =
         page_content(drawing, settings, lattice, drawn, gradients, marks, stages.next(1), cancel);
 
-    PdfObjects objects(bytes);
-    objects.add(fmt::format(
-        "<</Type/Catalog/Pages {} 0 R/Metadata {} 0 R{}>>", +pages, metadata, layer_list));
-    objects.add(fmt::format("<</Type/Pages/Kids[{} 0 R]/Count 1>>", +page));
-    objects.add(fmt::format(
-        "<</Type/Page/Parent {} 0 R/MediaBox[0 0 {} {}]/Resources<</Properties<<{}>>{}>>"
-        "/Contents {} 0 R>>",
-        +pages,
-        decimal(size.width, 4),
-        decimal(size.height, 4),
-        resources,
-        patterns,
-        +content));
-    objects.add(stream_object("", text, stages.next(2), cancel));
-    std::string texts = "/Producer(VERA)";
-    if (!drawing.title.empty())
-        texts += "/Title" + pdf_string(drawing.title);
-    if (!drawing.description.empty())
-        texts += "/Subject" + pdf_string(drawing.description);
-    objects.add("<<" + texts + ">>");
-    for (const std::string& name : names)
-        objects.add(fmt::format("<</Type/OCG/Name{}>>", pdf_string(name)));
-    // Not packed, so that programs that do not read PDF find it as well.
-    const std::string packet = xmp_packet(drawing.title, drawing.description);
-    objects.add(fmt::format(
-        "<</Type/Metadata/Subtype/XML/Length {}>>\nstream\n{}\nendstream", packet.size(), packet));
     std::vector<std::string> packed;
     for (std::size_t i = 0; i < gradients.count(); ++i)
         packed.push_back(fmt::format(
             "<<{}/Matrix{}>>",
             shading_pattern(gradients[i]),
             pattern_matrix(gradients[i], size, drawing.width)));
+    for (const PdfLayers::Group& group : optional.groups)
+        packed.push_back(pdf_layer(group.name));
+    std::string properties = optional.properties();
+    std::string content_properties = optional.content_properties();
+    if (!optional.groups.empty()) { // lists of them are long
+        packed.push_back(std::move(properties));
+        properties = fmt::format(" {} 0 R", first_packed + packed.size() - 1);
+        packed.push_back(std::move(content_properties));
+        content_properties = fmt::format(" {} 0 R", first_packed + packed.size() - 1);
+    }
+
+    PdfObjects objects(bytes);
+    objects.add(fmt::format(
+        "<</Type/Catalog/Pages {} 0 R/Metadata {} 0 R{}{}>>",
+        +pages,
+        metadata,
+        content_properties.empty() ? "" : "/OCProperties",
+        content_properties));
+    objects.add(fmt::format("<</Type/Pages/Kids[{} 0 R]/Count 1>>", +page));
+    objects.add(fmt::format(
+        "<</Type/Page/Parent {} 0 R/MediaBox[0 0 {} {}]/Resources<</Properties{}{}>>"
+        "/Contents {} 0 R>>",
+        +pages,
+        decimal(size.width, 4),
+        decimal(size.height, 4),
+        properties,
+        pattern_resources(gradients, first_packed),
+        +content));
+    objects.add(stream_object("", text, stages.next(2), cancel));
+    objects.add(information_object(drawing));
+    for (const std::string& name : optional.names)
+        objects.add(pdf_layer(name));
+    objects.add(metadata_object(drawing));
     if (!packed.empty())
         objects.add_packed(packed);
     objects.finish(catalog, information);

@@ -5,6 +5,7 @@
 #include "vera/drawing/document_text.h"
 #include "vera/drawing/gradient_numbers.h"
 #include "vera/drawing/layers.h"
+#include "vera/drawing/open_groups.h"
 #include "vera/drawing/svg_areas.h"
 #include "vera/drawing/svg_path.h"
 
@@ -336,20 +337,10 @@ private:
 
     /// Ends the groups that this one is no part of, and begins those that it is.
     void go_to_group(const std::shared_ptr<const DrawingGroup>& group) {
-        if (!groups_.empty() && groups_.back() == group)
-            return;
-        std::vector<std::shared_ptr<const DrawingGroup>> way; // from the outermost on
-        for (auto one = group; one; one = one->parent)
-            way.push_back(one);
-        std::reverse(way.begin(), way.end());
-        std::size_t same = 0;
-        while (same < std::min(way.size(), groups_.size())
-               && is_same_group(way[same].get(), groups_[same].get()))
-            ++same;
-        for (; groups_.size() > same; groups_.pop_back())
-            text_ += "</g>\n";
-        for (; groups_.size() < way.size(); groups_.push_back(way[groups_.size()]))
-            begin_group(*way[groups_.size()]);
+        groups_.go_to(
+            group,
+            [&](const DrawingGroup& begun, std::size_t) { begin_group(begun); },
+            [&] { text_ += "</g>\n"; });
     }
 
     /// So few areas, and corners, that their text takes no room; one area at least.
@@ -391,6 +382,7 @@ private:
             add("class", group.material->css_class);
             add("data-material", group.material->name);
         }
+        add("data-name", group.given);
         add("inkscape:label", group.name);
         text_ += ">\n";
         write_element("title", group.name);
@@ -451,8 +443,7 @@ private:
     std::string gradients_text_;              ///< of the last ones
     std::vector<std::string> held_gradients_; ///< of those before
     bool has_seams_ = false;
-    /// That the last outline stands in, from the outermost on.
-    std::vector<std::shared_ptr<const DrawingGroup>> groups_;
+    OpenGroups groups_;
     bool is_holding_ = false;
     bool is_held_ = false;
     std::vector<std::string> held_;  ///< the fills as text, part by part

@@ -97,12 +97,12 @@ IncludedFiles::mesh_path(std::string_view name, const WordPlace& place) {
 }
 
 std::optional<Scene> IncludedFiles::mesh(
-    const std::filesystem::path& path, MeshMaterials materials, const WordPlace& place) {
+    const std::filesystem::path& path, ObjMaterials materials, const WordPlace& place) {
     std::vector<Diagnostic> warnings;
     Scene scene;
     try {
-        if (materials == MeshMaterials::of_file && extension_of(path) == ".obj") {
-            scene = read_obj_parts(SourceText(path), warnings);
+        if (extension_of(path) == ".obj") {
+            scene = read_obj_parts(SourceText(path), warnings, materials);
         } else {
             scene.geometry.meshes.push_back(read_mesh(path, warnings));
             scene.geometry.items.push_back({.kind = ItemKind::mesh});

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "vera/formats/complaints.h"
+#include "vera/formats/obj_parts.h"
 #include "vera/formats/source_text.h"
 #include "vera/scene/scene.h"
 
@@ -28,13 +29,10 @@ public:
     /// MESH: the path of a mesh file that exists; nothing, and a complaint, when there is none.
     std::optional<std::filesystem::path> mesh_path(std::string_view name, const WordPlace& place);
 
-    /// Whether the materials that a mesh file names are taken or those of the scene hold.
-    enum class MeshMaterials { of_file, of_scene };
-
-    /// The mesh in the file, as a scene of one mesh or, of a file that names materials, one for
-    /// each stretch of one of them; nothing, and complaints, when it cannot be read.
+    /// The mesh in the file, as a scene of one mesh or, of a file that names materials which are
+    /// taken, one for each stretch of one of them; nothing, and complaints, when it cannot be read.
     std::optional<Scene>
-    mesh(const std::filesystem::path& path, MeshMaterials materials, const WordPlace& place);
+    mesh(const std::filesystem::path& path, ObjMaterials materials, const WordPlace& place);
 
     /// The files of the meshes and of their materials, as they were read.
     const std::set<std::string>& mesh_files() const { return mesh_files_; }

@@ -16,11 +16,10 @@ namespace vera {
 
 namespace {
 
-constexpr std::array<std::string_view, 28> passed_over = {
-    "vt",   "vp",         "g",      "o",     "s",         "usemap",   "maplib",
-    "p",    "l",          "mg",     "bevel", "lod",       "d_interp", "c_interp",
-    "call", "shadow_obj", "cstype", "deg",   "trace_obj", "bmat",     "step",
-    "parm", "trim",       "hole",   "scrv",  "sp",        "end",      "con"};
+constexpr std::array<std::string_view, 26> passed_over = {
+    "vt",   "vp",       "s",        "usemap", "maplib",     "p",      "l",   "mg",        "bevel",
+    "lod",  "d_interp", "c_interp", "call",   "shadow_obj", "cstype", "deg", "trace_obj", "bmat",
+    "step", "parm",     "trim",     "hole",   "scrv",       "sp",     "end", "con"};
 
 constexpr std::array<std::string_view, 3> free_form = {"curv", "curv2", "surf"};
 
@@ -37,13 +36,14 @@ public:
         , builder_(report_)
         , spent_(source) {}
 
-    Mesh read(std::vector<Diagnostic>& warnings, ObjMaterials& materials) {
+    Mesh read(std::vector<Diagnostic>& warnings, ObjAttributes& attributes) {
         reserve();
         while (!at_end())
             read_line();
         warn();
-        end_run();
-        materials = std::move(materials_);
+        end_material_run();
+        end_name_run();
+        attributes = std::move(attributes_);
         return builder_.finish(warnings);
     }
 
@@ -110,7 +110,12 @@ private:
         } else if (keyword == "vn") {
             read_point(builder_.mesh().normals, "the normal", start);
         } else if (keyword == "usemtl") {
-            begin_run(start);
+            begin_material_run(start);
+        } else if (keyword == "g") {
+            begin_name_run({0, name_run_.object, cursor_.name_of_line()}, start);
+        } else if (keyword == "o") {
+            // What follows is in no group of the object before.
+            begin_name_run({0, cursor_.name_of_line(), {}}, start);
         } else if (keyword == "mtllib") {
             take_libraries();
         } else if (!keyword.empty()) {
@@ -130,7 +135,7 @@ private:
             if (continues)
                 names = names.substr(0, names.find_last_not_of(" \t\\") + 1);
             if (!names.empty())
-                materials_.libraries.push_back(names);
+                attributes_.libraries.push_back(names);
             if (continues)
                 cursor_.skip_comment(); // the line and nothing else
         }
@@ -138,31 +143,51 @@ private:
     }
 
     /// Faces from here on have the material of that name.
-    void begin_run(std::size_t start) {
+    void begin_material_run(std::size_t start) {
         const std::string_view name = cursor_.name_of_line();
-        if (name.empty() || materials_.any_left_out)
+        if (name.empty() || attributes_.materials_left_out)
             return;
-        end_run();
-        run_ = {triangle_count(), ObjMaterials::none, start};
-        run_name_ = name;
+        end_material_run();
+        material_run_ = {triangle_count(), ObjAttributes::none, start};
+        material_name_ = name;
     }
 
     /// A run without triangles is none, and two that follow each other with one material are one.
-    void end_run() {
-        std::vector<ObjMaterials::Run>& runs = materials_.runs;
-        if (run_.first_triangle == triangle_count() || run_name_.empty()
-            || (!runs.empty() && runs.back().name != ObjMaterials::none
-                && materials_.names[runs.back().name] == run_name_))
+    void end_material_run() {
+        std::vector<ObjAttributes::MaterialRun>& runs = attributes_.material_runs;
+        if (material_run_.first_triangle == triangle_count() || material_name_.empty()
+            || (!runs.empty() && runs.back().material != ObjAttributes::none
+                && attributes_.materials[runs.back().material] == material_name_))
             return;
-        if (runs.empty() && run_.first_triangle > 0)
+        if (runs.empty() && material_run_.first_triangle > 0)
             runs.push_back({}); // before the first usemtl
-        const auto [found, is_new] =
-            numbers_.try_emplace(run_name_, static_cast<std::uint32_t>(numbers_.size()));
+        const auto [found, is_new] = material_numbers_.try_emplace(
+            material_name_, static_cast<std::uint32_t>(material_numbers_.size()));
         if (is_new)
-            materials_.names.push_back(run_name_);
-        run_.name = found->second;
-        runs.push_back(run_);
-        materials_.any_left_out = runs.size() > most_material_runs;
+            attributes_.materials.push_back(material_name_);
+        material_run_.material = found->second;
+        runs.push_back(material_run_);
+        attributes_.materials_left_out = runs.size() > most_material_runs;
+    }
+
+    /// Faces from here on are of that object and group.
+    void begin_name_run(const ObjAttributes::NameRun& names, std::size_t start) {
+        if (attributes_.names_left_out_at)
+            return;
+        end_name_run();
+        if (attributes_.name_runs.size() > most_name_runs)
+            attributes_.names_left_out_at = start;
+        name_run_ = names;
+        name_run_.first_triangle = triangle_count();
+    }
+
+    /// As for materials.
+    void end_name_run() {
+        std::vector<ObjAttributes::NameRun>& runs = attributes_.name_runs;
+        const ObjAttributes::NameRun before = runs.empty() ? ObjAttributes::NameRun() : runs.back();
+        if (name_run_.first_triangle < triangle_count()
+            && (name_run_.object != before.object || name_run_.group != before.group))
+            runs.push_back(name_run_);
     }
 
     std::uint32_t triangle_count() {
@@ -297,10 +322,11 @@ private:
     MeshBuilder builder_;
     SpentText spent_;
     std::vector<MeshCorner> corners_;
-    ObjMaterials materials_;
-    ObjMaterials::Run run_; ///< that which goes on
-    std::string_view run_name_;
-    std::unordered_map<std::string_view, std::uint32_t> numbers_; ///< of names
+    ObjAttributes attributes_;
+    ObjAttributes::MaterialRun material_run_; ///< that which goes on
+    std::string_view material_name_;
+    std::unordered_map<std::string_view, std::uint32_t> material_numbers_; ///< by name
+    ObjAttributes::NameRun name_run_;                                      ///< that which goes on
     Tally free_form_;
     Tally unknown_;
 };
@@ -308,13 +334,13 @@ private:
 } // namespace
 
 Mesh read_obj(const SourceText& source, std::vector<Diagnostic>& warnings) {
-    ObjMaterials left_out;
+    ObjAttributes left_out;
     return read_obj(source, warnings, left_out);
 }
 
 Mesh read_obj(
-    const SourceText& source, std::vector<Diagnostic>& warnings, ObjMaterials& materials) {
-    return ObjReader(source).read(warnings, materials);
+    const SourceText& source, std::vector<Diagnostic>& warnings, ObjAttributes& attributes) {
+    return ObjReader(source).read(warnings, attributes);
 }
 
 std::vector<std::uint32_t> obj_triangle_lines(const SourceText& source) {

@@ -60,11 +60,74 @@ bool is_file(const std::filesystem::path& path) {
     return std::filesystem::is_regular_file(path, error);
 }
 
+/// Objects, and groups within them, made of runs of names, and the elements of the meshes that the
+/// triangles have become.
+class PartMaker {
+public:
+    explicit PartMaker(const Geometry& geometry)
+        : geometry_(geometry) {}
+
+    std::vector<NamedPart> make(const std::vector<ObjAttributes::NameRun>& runs) {
+        ObjAttributes::NameRun last;
+        for (const ObjAttributes::NameRun& run : runs) {
+            go_to(run.first_triangle);
+            const bool is_other = run.object != last.object;
+            if (is_other || run.group != last.group)
+                end(group_);
+            if (is_other)
+                end(object_);
+            if (is_other)
+                begin(object_, run.object);
+            if (is_other || run.group != last.group)
+                begin(group_, run.group);
+            last = run;
+        }
+        at_ = {static_cast<std::uint32_t>(geometry_.items.size()), 0};
+        end(group_);
+        end(object_);
+        return std::move(parts_);
+    }
+
+private:
+    void go_to(std::size_t triangle) {
+        for (;; ++at_.item) {
+            const std::size_t end = first_of_mesh_ + geometry_.meshes[at_.item].triangle_count();
+            if (triangle < end)
+                break;
+            first_of_mesh_ = end;
+        }
+        at_.triangle = static_cast<std::uint32_t>(triangle - first_of_mesh_);
+    }
+
+    void begin(std::uint32_t& part, std::string_view name) {
+        if (name.empty())
+            return;
+        part = static_cast<std::uint32_t>(parts_.size());
+        parts_.push_back({std::string(name), at_, at_, &part == &group_ ? object_ : none});
+    }
+
+    void end(std::uint32_t& part) {
+        if (part != none)
+            parts_[part].end = at_;
+        part = none;
+    }
+
+    static constexpr std::uint32_t none = NamedPart::none;
+
+    const Geometry& geometry_;
+    std::vector<NamedPart> parts_;
+    Element at_;
+    std::size_t first_of_mesh_ = 0; ///< triangle of the file
+    std::uint32_t object_ = none;   ///< number of the part that goes on
+    std::uint32_t group_ = none;
+};
+
 class PartReader {
 public:
-    PartReader(const SourceText& source, std::vector<Diagnostic>& warnings)
+    PartReader(const SourceText& source, std::vector<Diagnostic>& warnings, ObjMaterials materials)
         : source_(source)
         , warnings_(warnings)
+        , materials_(materials)
         , folder_(std::filesystem::path(source.name()).parent_path()) {
         if (folder_.empty())
             folder_ = "."; // so that no file name is taken for standard input
@@ -72,19 +135,31 @@ public:
 
     Scene read() {
         Mesh mesh = read_obj(source_, warnings_, said_);
-        if (said_.any_left_out) {
+        if (materials_ == ObjMaterials::none)
+            leave_materials_out();
+        if (said_.materials_left_out) {
             warn(
-                said_.runs.back().offset,
+                said_.material_runs.back().offset,
                 fmt::format(
                     "the material changes more than {} times: none of the file is taken",
                     most_material_runs),
                 "order the faces by material");
-            said_ = {};
+            leave_materials_out();
+        }
+        if (said_.names_left_out_at) {
+            warn(
+                *said_.names_left_out_at,
+                fmt::format(
+                    "objects and groups (o and g) change more than {} times: none is taken",
+                    most_name_runs),
+                "order the faces by object and group");
+            said_.name_runs.clear();
         }
         for (const std::string_view names : said_.libraries)
             read_libraries(names);
         choose_materials();
         add_meshes(std::move(mesh));
+        scene_.geometry.named_parts = PartMaker(scene_.geometry).make(said_.name_runs);
         return std::move(scene_);
     }
 
@@ -92,6 +167,13 @@ private:
     void warn(std::size_t offset, std::string problem, std::string remedy) {
         warnings_.push_back(source_.diagnostic(
             Severity::warning, offset, 1, std::move(problem), std::move(remedy)));
+    }
+
+    void leave_materials_out() {
+        said_.libraries.clear();
+        said_.materials.clear();
+        said_.material_runs.clear();
+        said_.materials_left_out = false;
     }
 
     std::size_t offset_of(std::string_view part) const {
@@ -146,7 +228,7 @@ private:
     void choose_materials() {
         std::size_t undefined = 0;
         std::string_view first;
-        for (const std::string_view name : said_.names) {
+        for (const std::string_view name : said_.materials) {
             const auto found = defined_.find(std::string(name));
             if (found == defined_.end() && undefined++ == 0)
                 first = name;
@@ -169,10 +251,10 @@ private:
 
     void add_meshes(Mesh mesh) {
         Geometry& geometry = scene_.geometry;
-        if (said_.runs.size() > 1) {
+        if (said_.material_runs.size() > 1) {
             std::vector<std::uint32_t> ends;
-            for (std::size_t i = 1; i < said_.runs.size(); ++i)
-                ends.push_back(said_.runs[i].first_triangle);
+            for (std::size_t i = 1; i < said_.material_runs.size(); ++i)
+                ends.push_back(said_.material_runs[i].first_triangle);
             ends.push_back(static_cast<std::uint32_t>(mesh.triangle_count()));
             geometry.meshes = split_mesh(mesh, ends);
         } else {
@@ -182,14 +264,14 @@ private:
         std::size_t counted_to = 0;
         for (std::uint32_t i = 0; i < geometry.meshes.size(); ++i) {
             Item item = {.kind = ItemKind::mesh, .index = i};
-            if (!said_.runs.empty()) {
-                const ObjMaterials::Run& run = said_.runs[i];
+            if (!said_.material_runs.empty()) {
+                const ObjAttributes::MaterialRun& run = said_.material_runs[i];
                 const std::string_view before =
                     source_.text().substr(counted_to, run.offset - counted_to);
                 line += static_cast<std::uint32_t>(std::ranges::count(before, '\n'));
                 counted_to = run.offset;
-                if (run.name != ObjMaterials::none)
-                    item.material = MaterialId{run.name};
+                if (run.material != ObjAttributes::none)
+                    item.material = MaterialId{run.material};
             }
             item.line = line;
             geometry.items.push_back(item);
@@ -198,8 +280,9 @@ private:
 
     const SourceText& source_;
     std::vector<Diagnostic>& warnings_;
+    ObjMaterials materials_;
     std::filesystem::path folder_;
-    ObjMaterials said_;
+    ObjAttributes said_;
     std::set<std::filesystem::path> read_;
     std::unordered_map<std::string, Material> defined_; ///< of two with one name the first
     Tally missing_;                                     ///< files
@@ -233,8 +316,9 @@ std::vector<Mesh> split_mesh(const Mesh& mesh, std::span<const std::uint32_t> en
     return parts;
 }
 
-Scene read_obj_parts(const SourceText& source, std::vector<Diagnostic>& warnings) {
-    return PartReader(source, warnings).read();
+Scene read_obj_parts(
+    const SourceText& source, std::vector<Diagnostic>& warnings, ObjMaterials materials) {
+    return PartReader(source, warnings, materials).read();
 }
 
 } // namespace vera

@@ -163,10 +163,21 @@ void SceneBuilder::add(RotationalShape shape, const WordPlace& place) {
     shapes.push_back(std::move(shape));
 }
 
-void SceneBuilder::add(Mesh mesh, const WordPlace& place) {
-    auto& meshes = current_->geometry->meshes;
-    add_item(ItemKind::mesh, meshes.size(), place);
-    meshes.push_back(std::move(mesh));
+void SceneBuilder::add_mesh(const std::string& file, Geometry made, const WordPlace& place) {
+    Geometry& geometry = *current_->geometry;
+    const auto item = static_cast<std::uint32_t>(geometry.items.size());
+    add_item(ItemKind::mesh, geometry.meshes.size(), place);
+    geometry.meshes.push_back(std::move(made.meshes.front()));
+    if (made.named_parts.empty())
+        return;
+    const auto whole = static_cast<std::uint32_t>(geometry.named_parts.size());
+    geometry.named_parts.push_back({file, {item, 0}, {item + 1, 0}});
+    for (NamedPart& part : made.named_parts) {
+        part.first.item += item;
+        part.end.item += item;
+        part.parent = part.parent == NamedPart::none ? whole : part.parent + whole + 1;
+        geometry.named_parts.push_back(std::move(part));
+    }
 }
 
 void SceneBuilder::add_plane_polygon(

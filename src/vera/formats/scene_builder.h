@@ -56,7 +56,8 @@ public:
     void add(const Triangle& triangle, const WordPlace& place);
     void add(const Patch& patch, const WordPlace& place);
     void add(RotationalShape shape, const WordPlace& place);
-    void add(Mesh mesh, const WordPlace& place);
+    /// One mesh of a file of that name. Parts that it names stand within one that has the file's.
+    void add_mesh(const std::string& file, Geometry made, const WordPlace& place);
     void add_quadrangle(const std::array<Vec3, 4>& corners, const WordPlace& place);
     void add_polygon(const std::vector<Vec3>& corners, const WordPlace& place);
     void add_call(

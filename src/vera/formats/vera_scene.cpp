@@ -307,8 +307,7 @@ private:
         const auto path = files_.mesh_path(*name, name_place);
         if (!path)
             return;
-        const auto materials = builder_.has_material() ? IncludedFiles::MeshMaterials::of_scene
-                                                       : IncludedFiles::MeshMaterials::of_file;
+        const auto materials = builder_.has_material() ? ObjMaterials::none : ObjMaterials::of_file;
         // Placed meshes are subscenes of their own, so that each file is in memory once, and so are
         // those of several parts.
         const auto key = std::pair(*path, materials);
@@ -316,7 +315,7 @@ private:
         if (known == mesh_subscenes_.end()) {
             auto mesh = files_.mesh(*path, materials, name_place);
             if (mesh && !placement->moves && mesh->materials.empty())
-                return builder_.add(std::move(mesh->geometry.meshes.front()), place);
+                return builder_.add_mesh(path->string(), std::move(mesh->geometry), place);
             std::optional<SubsceneId> id;
             if (mesh)
                 id = builder_.add_made_subscene(path->string(), std::move(*mesh), place);
@@ -361,9 +360,7 @@ private:
     IncludedFiles files_;
     std::vector<std::unique_ptr<WordReader>> texts_; ///< each included by the one before it
     std::size_t inclusions_ = 0;
-    std::map<
-        std::pair<std::filesystem::path, IncludedFiles::MeshMaterials>,
-        std::optional<SubsceneId>>
+    std::map<std::pair<std::filesystem::path, ObjMaterials>, std::optional<SubsceneId>>
         mesh_subscenes_;
     std::map<std::string, std::optional<SubsceneId>> made_; ///< by MadePart::key
     std::vector<std::string_view> making_words_;            ///< that optional_words_ may show

@@ -6,7 +6,9 @@
 #include "vera/scene/material.h"
 #include "vera/scene/primitives.h"
 
+#include <compare>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -54,6 +56,20 @@ struct Item {
 struct Element {
     std::uint32_t item = 0;
     std::uint32_t triangle = 0;
+
+    /// By the order of the text.
+    friend auto operator<=>(const Element&, const Element&) = default;
+};
+
+/// Elements one behind the other that a mesh file gives a name: an object (o) of an OBJ file, or a
+/// group (g) in one. See named_parts.h.
+struct NamedPart {
+    static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+    std::string name; ///< as the file has it, in whatever encoding; not empty
+    Element first;
+    Element end;                 ///< behind the last one: of another item, its triangle 0
+    std::uint32_t parent = none; ///< number of the smallest one that this is within
 };
 
 /// An item that holds more than one primitive, or none: where its elements and primitives begin.
@@ -76,6 +92,10 @@ struct Geometry {
     std::vector<SubsceneCall> calls;
 
     std::vector<Item> items; ///< all of the above in text order
+
+    /// In the order of their first elements, each before those within it. None is empty, and two
+    /// that have an element in common are one within the other.
+    std::vector<NamedPart> named_parts;
 
     // Derived by number_primitives(Scene&).
     std::vector<Compound> compounds;   ///< the meshes and subscene calls, in text order

@@ -107,8 +107,9 @@ using TrianglePair = std::array<std::uint32_t, 2>;
 /// Adds the neighbours in one plane along the sides from the vertex to those of a larger number.
 class NeighboursAt {
 public:
-    explicit NeighboursAt(const Mesh& mesh)
-        : mesh_(mesh) {}
+    NeighboursAt(const Mesh& mesh, std::span<const std::uint32_t> ends)
+        : mesh_(mesh)
+        , ends_(ends) {}
 
     void
     add(std::uint32_t vertex,
@@ -126,7 +127,8 @@ public:
             if (end - first > most_at_a_side)
                 continue;
             for (auto other = first; other != end; ++other)
-                if (are_in_one_plane(mesh_, vertex, one, *other))
+                if (are_in_one_plane(mesh_, vertex, one, *other)
+                    && stretch_of(one.triangle) == stretch_of(other->triangle))
                     pairs.push_back({one.triangle, other->triangle});
         }
     }
@@ -134,20 +136,26 @@ public:
 private:
     static bool by_last(const TriangleAt& a, const TriangleAt& b) { return a.last < b.last; }
 
+    std::ptrdiff_t stretch_of(std::uint32_t triangle) const {
+        return std::upper_bound(ends_.begin(), ends_.end(), triangle) - ends_.begin();
+    }
+
     const Mesh& mesh_;
+    std::span<const std::uint32_t> ends_;
     std::vector<TriangleAt> round_;
 };
 
 } // namespace
 
-std::vector<std::uint32_t> coplanar_patches(const Mesh& mesh, const CancelFlag* cancel) {
+std::vector<std::uint32_t>
+coplanar_patches(const Mesh& mesh, std::span<const std::uint32_t> ends, const CancelFlag* cancel) {
     const TrianglesAtVertices at = triangles_at_vertices(mesh, cancel);
     DisjointSets patches(mesh.triangle_count());
     bool any = false;
     std::mutex mutex;
     parallel_ranges(mesh.positions.size(), 4096, [&](std::size_t first, std::size_t last) {
         stop_if_raised(cancel);
-        NeighboursAt neighbours(mesh);
+        NeighboursAt neighbours(mesh, ends);
         std::vector<TrianglePair> pairs;
         for (std::size_t vertex = first; vertex < last; ++vertex)
             neighbours.add(static_cast<std::uint32_t>(vertex), at.of(vertex), pairs);

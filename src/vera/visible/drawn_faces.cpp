@@ -2,6 +2,7 @@
 #include "vera/visible/drawn_faces.h"
 
 #include "vera/base/long_loop.h"
+#include "vera/scene/named_parts.h"
 #include "vera/scene/surface.h"
 #include "vera/visible/convex_piece.h"
 #include "vera/visible/coplanar_patches.h"
@@ -125,7 +126,8 @@ private:
         end_of_mesh_ = i + static_cast<std::uint32_t>(mesh.triangle_count());
         const auto [patches, is_new] = patches_of_meshes_.try_emplace(&mesh);
         if (is_new && unit_ != FaceUnit::plane)
-            patches->second = coplanar_patches(mesh, cancel_);
+            patches->second =
+                coplanar_patches(mesh, stretch_ends(*path.geometry, path.element.item), cancel_);
         patches_ = &patches->second;
     }
 

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+// Stretches of elements in the same named parts, compared with a look at all parts of each element.
+#include "vera/scene/named_parts.h"
+
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace vera {
+namespace {
+
+/// Meshes of 1 to 3 triangles, and a sphere here and there.
+Geometry random_geometry(std::mt19937& random) {
+    Geometry geometry;
+    const std::size_t count = 1 + random() % 6;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        Item item = {.kind = ItemKind::sphere};
+        if (random() % 4 != 0) {
+            item = {.kind = ItemKind::mesh};
+            item.index = static_cast<std::uint32_t>(geometry.meshes.size());
+            geometry.meshes.emplace_back().position_indices.resize(3 * (1 + random() % 3));
+        } else {
+            geometry.spheres.emplace_back();
+        }
+        geometry.items.push_back(item);
+    }
+    return geometry;
+}
+
+std::vector<Element> elements_of(const Geometry& geometry) {
+    std::vector<Element> elements;
+    for (std::uint32_t i = 0; i < geometry.items.size(); ++i) {
+        const Item& item = geometry.items[i];
+        const std::size_t count = item.kind == ItemKind::mesh
+            ? geometry.meshes[item.index].triangle_count()
+            : std::size_t{1};
+        for (std::uint32_t triangle = 0; triangle < count; ++triangle)
+            elements.push_back({i, triangle});
+    }
+    return elements;
+}
+
+/// Parts of the elements from first up to end, in up to three levels, some of them alike.
+void add_parts(
+    std::mt19937& random,
+    const std::vector<Element>& elements,
+    std::size_t first,
+    std::size_t end,
+    std::uint32_t parent,
+    int levels,
+    Geometry& geometry) {
+    const auto at = [&](std::size_t i) {
+        return i < elements.size() ? elements[i]
+                                   : Element{static_cast<std::uint32_t>(geometry.items.size()), 0};
+    };
+    while (levels > 0 && first < end) {
+        const std::size_t last = first + 1 + random() % (end - first);
+        if (random() % 3 != 0) {
+            const auto number = static_cast<std::uint32_t>(geometry.named_parts.size());
+            geometry.named_parts.push_back({"part", at(first), at(last), parent});
+            add_parts(random, elements, first, last, number, levels - 1, geometry);
+        }
+        first = last;
+    }
+}
+
+bool holds(const NamedPart& part, Element element) {
+    return part.first <= element && element < part.end;
+}
+
+std::vector<bool> parts_with(const Geometry& geometry, Element element) {
+    std::vector<bool> with;
+    for (const NamedPart& part : geometry.named_parts)
+        with.push_back(holds(part, element));
+    return with;
+}
+
+TEST(NamedParts, TellTheStretchesThatAllPartsTell) {
+    std::mt19937 random(7);
+    std::size_t deep = 0;
+    std::size_t parted = 0;
+    for (int round = 0; round < 500; ++round) {
+        Geometry geometry = random_geometry(random);
+        const std::vector<Element> elements = elements_of(geometry);
+        add_parts(random, elements, 0, elements.size(), NamedPart::none, 3, geometry);
+        for (std::size_t i = 0; i < elements.size(); ++i) {
+            const std::vector<bool> with = parts_with(geometry, elements[i]);
+            std::uint32_t smallest = NamedPart::none;
+            for (std::uint32_t part = 0; part < with.size(); ++part)
+                smallest = with[part] ? part : smallest; // those within come later
+            const auto is_alike = [&](std::size_t other) {
+                return elements[other].item == elements[i].item
+                    && parts_with(geometry, elements[other]) == with;
+            };
+            std::size_t first = i;
+            while (first > 0 && is_alike(first - 1))
+                --first;
+            std::size_t end = i + 1;
+            while (end < elements.size() && is_alike(end))
+                ++end;
+            const PartStretch stretch = stretch_of(geometry, elements[i]);
+            EXPECT_EQ(stretch.part, smallest);
+            EXPECT_EQ(stretch.first, elements[first]);
+            EXPECT_EQ(stretch_of(geometry, elements[end - 1]).end, stretch.end);
+            EXPECT_GT(stretch.end, elements[end - 1]);
+            if (end < elements.size()) {
+                EXPECT_LE(stretch.end, elements[end]);
+            }
+            deep += smallest != NamedPart::none
+                && geometry.named_parts[smallest].parent != NamedPart::none;
+        }
+        for (std::uint32_t item = 0; item < geometry.items.size(); ++item) {
+            if (geometry.items[item].kind != ItemKind::mesh)
+                continue;
+            std::vector<std::uint32_t> expected;
+            for (std::size_t i = 1; i < elements.size(); ++i)
+                if (elements[i].item == item && elements[i].triangle > 0
+                    && parts_with(geometry, elements[i]) != parts_with(geometry, elements[i - 1]))
+                    expected.push_back(elements[i].triangle);
+            EXPECT_EQ(stretch_ends(geometry, item), expected);
+            parted += expected.size();
+        }
+        for (std::uint32_t part = 0; part < geometry.named_parts.size(); ++part) {
+            bool any = false;
+            for (const NamedPart& other : geometry.named_parts)
+                any = any || other.parent == part;
+            EXPECT_EQ(has_parts_within(geometry, part), any);
+        }
+    }
+    EXPECT_GT(deep, 500U);
+    EXPECT_GT(parted, 500U);
+}
+
+} // namespace
+} // namespace vera
