@@ -135,7 +135,11 @@ void explain(const Request& request, const Console& console) {
         svg->commit();
     }
     if (request.json)
-        fmt::print("{}\n", explanation_json(explanation).dump(2));
+        // Names of materials are as their files have them.
+        fmt::print(
+            "{}\n",
+            explanation_json(explanation)
+                .dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
     else if (request.svg != "-")
         fmt::print("{}", explanation_text(explanation));
 }

@@ -305,6 +305,16 @@ TEST(ExplainCommand, ListsWhatRaysVisit) {
     EXPECT_EQ(explained(folder, "36 45 --raster 64x64").find("visits  "), std::string::npos);
 }
 
+/// Names of mesh files are in whatever encoding, and JSON is in UTF-8.
+TEST(ExplainCommand, TellsNamesOfMaterialsInOtherEncodings) {
+    const ScratchFolder folder;
+    folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl caf\xE9\nf 1 2 3\n");
+    const ProgramRun run = run_vera(folder, "explain a.obj 25 35 --raster 64x64 --json -q");
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ(nlohmann::json::parse(run.out)["rays"][0]["hit"]["material"], "caf\xEF\xBF\xBD")
+        << run.out;
+}
+
 TEST(ExplainCommand, RefusesVisitsThatItCannotList) {
     const ScratchFolder folder;
     folder.write("a.vera", busy_scene);
