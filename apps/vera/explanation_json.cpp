@@ -38,6 +38,8 @@ Json as_json(const SceneObject& object) {
     if (object.triangle > 0)
         json["triangle"] = object.triangle;
     put_place(json, object.place);
+    if (!object.parts.empty())
+        json["parts"] = object.parts;
     json["subscenes"] = Json::array();
     for (const SceneObject::Call& call : object.calls)
         json["subscenes"].push_back(as_json(call));

@@ -165,6 +165,8 @@ void Report::add_hit(const RayNode& node) {
         what += fmt::format(", its triangle {}", object.triangle);
     row("meets", what + ", from the " + (node.incidence.from_outside ? "outside" : "inside"));
     row("written at", to_text(object.place));
+    if (!object.parts.empty())
+        row("is part of", fmt::format("{}", fmt::join(object.parts, ", within it ")));
     for (const SceneObject::Call& call : object.calls)
         row("in subscene", fmt::format("{}, called at {}", call.subscene, to_text(call.place)));
     row("material", material_name(of_.prepared.scene, node.surface.material));

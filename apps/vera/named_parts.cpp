@@ -3,6 +3,7 @@
 
 #include "vera/formats/source_report.h"
 #include "vera/formats/word_reader.h"
+#include "vera/scene/named_parts.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -33,12 +34,7 @@ struct ToldPart {
         return end - (first() - 1);
     }
 
-    std::size_t depth() const {
-        std::size_t depth = 0;
-        for (auto at = part().parent; at != NamedPart::none; at = geometry->named_parts[at].parent)
-            ++depth;
-        return depth;
-    }
+    std::size_t depth() const { return parts_around(*geometry, number).size() - 1; }
 };
 
 /// Materials of the part, each once, in the order in which it has them.

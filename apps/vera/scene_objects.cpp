@@ -2,6 +2,7 @@
 #include "scene_objects.h"
 
 #include "vera/scene/item_names.h"
+#include "vera/scene/named_parts.h"
 #include "vera/scene/primitive_location.h"
 
 #include <optional>
@@ -30,6 +31,9 @@ SceneObject SceneObjects::object(FaceId face) {
         object.kind = "triangle of a mesh";
         object.triangle = location.within + 1;
         triangle = location.within;
+        const Element element = {location.item, static_cast<std::uint32_t>(location.within)};
+        for (const auto part : parts_around(*geometry, stretch_of(*geometry, element).part))
+            object.parts.push_back(geometry->named_parts[part].name);
     }
     object.place = places_.place(*geometry, location.item, triangle);
     return object;

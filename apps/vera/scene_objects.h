@@ -21,11 +21,12 @@ struct SceneObject {
         SourcePlace place;
     };
 
-    std::string kind;           ///< "sphere", "triangle of a mesh"
-    std::uint64_t number = 0;   ///< of the primitive, from 1 in text order, subscenes expanded
-    std::uint64_t triangle = 0; ///< of a mesh, from 1; else 0
-    SourcePlace place;          ///< of its statement, or of its face in an OBJ file
-    std::vector<Call> calls;    ///< from the main scene inwards
+    std::string kind;               ///< "sphere", "triangle of a mesh"
+    std::uint64_t number = 0;       ///< of the primitive, from 1 in text order, subscenes expanded
+    std::uint64_t triangle = 0;     ///< of a mesh, from 1; else 0
+    SourcePlace place;              ///< of its statement, or of its face in an OBJ file
+    std::vector<std::string> parts; ///< that its file names, from the outermost on
+    std::vector<Call> calls;        ///< from the main scene inwards
 };
 
 /// Names the scene's objects. Keeps the texts of the scene's files, once they were asked about.

@@ -306,9 +306,12 @@ TEST(ExplainCommand, ListsWhatRaysVisit) {
 }
 
 /// Names of mesh files are in whatever encoding, and JSON is in UTF-8.
-TEST(ExplainCommand, TellsNamesOfMaterialsInOtherEncodings) {
+TEST(ExplainCommand, TellsNamesOfPartsAndMaterialsInAnyEncoding) {
     const ScratchFolder folder;
-    folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl caf\xE9\nf 1 2 3\n");
+    folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\no \xE9\ng b c\nusemtl caf\xE9\nf 1 2 3\n");
+    const ProgramRun text = run_vera(folder, "explain a.obj 25 35 --raster 64x64 -q");
+    EXPECT_NE(text.out.find("  is part of    \xE9, within it b c\n"), std::string::npos)
+        << text.out;
     const ProgramRun run = run_vera(folder, "explain a.obj 25 35 --raster 64x64 --json -q");
     ASSERT_EQ(run.exit_code, 0) << run.err;
     EXPECT_EQ(nlohmann::json::parse(run.out)["rays"][0]["hit"]["material"], "caf\xEF\xBF\xBD")

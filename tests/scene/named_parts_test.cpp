@@ -102,6 +102,10 @@ TEST(NamedParts, TellTheStretchesThatAllPartsTell) {
                 ++end;
             const PartStretch stretch = stretch_of(geometry, elements[i]);
             EXPECT_EQ(stretch.part, smallest);
+            std::vector<bool> around(with.size());
+            for (const std::uint32_t part : parts_around(geometry, stretch.part))
+                around[part] = true;
+            EXPECT_EQ(around, with);
             EXPECT_EQ(stretch.first, elements[first]);
             EXPECT_EQ(stretch_of(geometry, elements[end - 1]).end, stretch.end);
             EXPECT_GT(stretch.end, elements[end - 1]);

@@ -227,7 +227,7 @@ TEST(ObjectGroups, OfNamedPartsStandInTheCallsOfTheirFile) {
 TEST(ObjectGroups, OfRandomPartsHoldFacesOrGroups) {
     std::mt19937 random(31);
     std::size_t deepest = 0;
-    for (int round = 0; round < 200; ++round) {
+    for (int round = 0; round < 600; ++round) {
         Scene scene;
         scene.materials.resize(2);
         Geometry& geometry = scene.geometry;

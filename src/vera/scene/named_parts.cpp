@@ -49,6 +49,14 @@ std::vector<std::uint32_t> stretch_ends(const Geometry& geometry, std::uint32_t 
     return ends;
 }
 
+std::vector<std::uint32_t> parts_around(const Geometry& geometry, std::uint32_t part) {
+    std::vector<std::uint32_t> parts;
+    for (; part != NamedPart::none; part = geometry.named_parts[part].parent)
+        parts.push_back(part);
+    std::reverse(parts.begin(), parts.end());
+    return parts;
+}
+
 bool has_parts_within(const Geometry& geometry, std::uint32_t part) {
     const std::size_t next = std::size_t{part} + 1;
     return next < geometry.named_parts.size() && geometry.named_parts[next].parent == part;

@@ -24,6 +24,10 @@ PartStretch stretch_of(const Geometry& geometry, Element element);
 /// mesh's own end; empty where the whole of it is in the same parts.
 std::vector<std::uint32_t> stretch_ends(const Geometry& geometry, std::uint32_t item);
 
+/// The parts that the part of that number is within, and itself, from the outermost on; of none,
+/// none.
+std::vector<std::uint32_t> parts_around(const Geometry& geometry, std::uint32_t part);
+
 /// Whether another part lies within the part of that number.
 bool has_parts_within(const Geometry& geometry, std::uint32_t part);
 

@@ -128,10 +128,7 @@ void ObjectGroups::begin_object(std::uint64_t primitive) {
 /// The origin is the primitive before the geometry's first. Parts are of triangles, so that their
 /// first primitive and their number tell in which geometry they are, called at which place.
 void ObjectGroups::open_parts(const Geometry& geometry, std::uint64_t origin, bool is_leaf) {
-    std::vector<std::uint32_t> way; // from the outermost on
-    for (std::uint32_t part = stretch_.part; part != NamedPart::none;
-         part = geometry.named_parts[part].parent)
-        way.insert(way.begin(), part);
+    const std::vector<std::uint32_t> way = parts_around(geometry, stretch_.part);
     const auto first_of = [&](std::uint32_t part) {
         return origin + primitive_number(geometry, geometry.named_parts[part].first);
     };
