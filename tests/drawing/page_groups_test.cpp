@@ -33,8 +33,8 @@ Group group_within(const Group& parent, const std::string& name) {
 
 /// A square of a colour that no other number has.
 FilledOutline square(std::size_t number, const Group& group) {
-    const double x = static_cast<double>(number % 30);
-    const double y = static_cast<double>(number / 30 % 30);
+    const auto x = static_cast<double>(number % 30);
+    const auto y = static_cast<double>(number / 30 % 30);
     return {
         .group = group,
         .color =

@@ -33,7 +33,7 @@ std::string names_of(const Geometry& geometry, Element element) {
     std::string names;
     for (std::uint32_t part = stretch_of(geometry, element).part; part != NamedPart::none;
          part = geometry.named_parts[part].parent)
-        names = geometry.named_parts[part].name + (names.empty() ? "" : "/" + names);
+        names.insert(0, geometry.named_parts[part].name + (names.empty() ? "" : "/"));
     return names;
 }
 
@@ -159,7 +159,8 @@ TEST(ObjNames, AreThoseThatAReaderLineByLineKeeps) {
                 break;
             default:
                 text += "f 1 2 3\n";
-                expected.push_back(object + (object.empty() || group.empty() ? "" : "/") + group);
+                expected.push_back(object);
+                expected.back().append(object.empty() || group.empty() ? "" : "/").append(group);
                 nested += !object.empty() && !group.empty() ? 1 : 0;
             }
         }

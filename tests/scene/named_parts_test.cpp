@@ -2,6 +2,8 @@
 // Stretches of elements in the same named parts, compared with a look at all parts of each element.
 #include "vera/scene/named_parts.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <random>
 #include <vector>
@@ -77,6 +79,55 @@ std::vector<bool> parts_with(const Geometry& geometry, Element element) {
     return with;
 }
 
+/// The numbers of the parts with an element, in their order: those within others come later.
+std::vector<std::uint32_t> numbers_of(const std::vector<bool>& with) {
+    std::vector<std::uint32_t> numbers;
+    for (std::uint32_t part = 0; part < with.size(); ++part)
+        if (with[part])
+            numbers.push_back(part);
+    return numbers;
+}
+
+void expect_stretches(const Geometry& geometry, const std::vector<Element>& elements) {
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+        const std::vector<bool> with = parts_with(geometry, elements[i]);
+        const std::vector<std::uint32_t> numbers = numbers_of(with);
+        const auto is_alike = [&](std::size_t other) {
+            return elements[other].item == elements[i].item
+                && parts_with(geometry, elements[other]) == with;
+        };
+        std::size_t first = i;
+        while (first > 0 && is_alike(first - 1))
+            --first;
+        std::size_t end = i + 1;
+        while (end < elements.size() && is_alike(end))
+            ++end;
+        const PartStretch stretch = stretch_of(geometry, elements[i]);
+        EXPECT_EQ(stretch.part, numbers.empty() ? NamedPart::none : numbers.back());
+        EXPECT_EQ(parts_around(geometry, stretch.part), numbers);
+        EXPECT_EQ(stretch.first, elements[first]);
+        EXPECT_GT(stretch.end, elements[end - 1]);
+        EXPECT_TRUE(end == elements.size() || stretch.end <= elements[end]);
+    }
+}
+
+/// Of all meshes; how many ends there are.
+std::size_t expect_ends(const Geometry& geometry, const std::vector<Element>& elements) {
+    std::size_t count = 0;
+    for (std::uint32_t item = 0; item < geometry.items.size(); ++item) {
+        if (geometry.items[item].kind != ItemKind::mesh)
+            continue;
+        std::vector<std::uint32_t> expected;
+        for (std::size_t i = 1; i < elements.size(); ++i)
+            if (elements[i].item == item && elements[i].triangle > 0
+                && parts_with(geometry, elements[i]) != parts_with(geometry, elements[i - 1]))
+                expected.push_back(elements[i].triangle);
+        EXPECT_EQ(stretch_ends(geometry, item), expected);
+        count += expected.size();
+    }
+    return count;
+}
+
 TEST(NamedParts, TellTheStretchesThatAllPartsTell) {
     std::mt19937 random(7);
     std::size_t deep = 0;
@@ -85,53 +136,14 @@ TEST(NamedParts, TellTheStretchesThatAllPartsTell) {
         Geometry geometry = random_geometry(random);
         const std::vector<Element> elements = elements_of(geometry);
         add_parts(random, elements, 0, elements.size(), NamedPart::none, 3, geometry);
-        for (std::size_t i = 0; i < elements.size(); ++i) {
-            const std::vector<bool> with = parts_with(geometry, elements[i]);
-            std::uint32_t smallest = NamedPart::none;
-            for (std::uint32_t part = 0; part < with.size(); ++part)
-                smallest = with[part] ? part : smallest; // those within come later
-            const auto is_alike = [&](std::size_t other) {
-                return elements[other].item == elements[i].item
-                    && parts_with(geometry, elements[other]) == with;
-            };
-            std::size_t first = i;
-            while (first > 0 && is_alike(first - 1))
-                --first;
-            std::size_t end = i + 1;
-            while (end < elements.size() && is_alike(end))
-                ++end;
-            const PartStretch stretch = stretch_of(geometry, elements[i]);
-            EXPECT_EQ(stretch.part, smallest);
-            std::vector<bool> around(with.size());
-            for (const std::uint32_t part : parts_around(geometry, stretch.part))
-                around[part] = true;
-            EXPECT_EQ(around, with);
-            EXPECT_EQ(stretch.first, elements[first]);
-            EXPECT_EQ(stretch_of(geometry, elements[end - 1]).end, stretch.end);
-            EXPECT_GT(stretch.end, elements[end - 1]);
-            if (end < elements.size()) {
-                EXPECT_LE(stretch.end, elements[end]);
-            }
-            deep += smallest != NamedPart::none
-                && geometry.named_parts[smallest].parent != NamedPart::none;
-        }
-        for (std::uint32_t item = 0; item < geometry.items.size(); ++item) {
-            if (geometry.items[item].kind != ItemKind::mesh)
-                continue;
-            std::vector<std::uint32_t> expected;
-            for (std::size_t i = 1; i < elements.size(); ++i)
-                if (elements[i].item == item && elements[i].triangle > 0
-                    && parts_with(geometry, elements[i]) != parts_with(geometry, elements[i - 1]))
-                    expected.push_back(elements[i].triangle);
-            EXPECT_EQ(stretch_ends(geometry, item), expected);
-            parted += expected.size();
-        }
-        for (std::uint32_t part = 0; part < geometry.named_parts.size(); ++part) {
-            bool any = false;
-            for (const NamedPart& other : geometry.named_parts)
-                any = any || other.parent == part;
-            EXPECT_EQ(has_parts_within(geometry, part), any);
-        }
+        expect_stretches(geometry, elements);
+        parted += expect_ends(geometry, elements);
+        for (const NamedPart& part : geometry.named_parts)
+            deep += part.parent != NamedPart::none ? 1 : 0;
+        for (std::uint32_t part = 0; part < geometry.named_parts.size(); ++part)
+            EXPECT_EQ(
+                has_parts_within(geometry, part),
+                std::ranges::count(geometry.named_parts, part, &NamedPart::parent) > 0);
     }
     EXPECT_GT(deep, 500U);
     EXPECT_GT(parted, 500U);

@@ -222,61 +222,79 @@ TEST(ObjectGroups, OfNamedPartsStandInTheCallsOfTheirFile) {
     EXPECT_EQ(texts_of(scene), expected);
 }
 
-/// Of random parts in random meshes: groups are those that a look at all parts tells, each id is of
-/// one group, and a group holds faces or groups.
+/// Meshes of two materials in turn, and parts of their triangles, some with one within, up to which
+/// they go on. Returns the triangles, and what is behind them.
+std::vector<Element> add_random_parts(std::mt19937& random, Geometry& geometry) {
+    std::vector<Element> elements;
+    const std::size_t meshes = 1 + random() % 3;
+    for (std::uint32_t i = 0; i < meshes; ++i) {
+        geometry.meshes.push_back(mesh_of(1 + random() % 5));
+        geometry.items.push_back(item(ItemKind::mesh, i + 1, MaterialId{i % 2}));
+        geometry.items.back().index = i;
+        for (std::uint32_t k = 0; k < geometry.meshes.back().triangle_count(); ++k)
+            elements.push_back({i, k});
+    }
+    elements.push_back({static_cast<std::uint32_t>(meshes), 0});
+    for (std::size_t i = 0; i + 1 < elements.size();) {
+        const std::size_t end = std::min(elements.size() - 1, i + 1 + random() % 5);
+        const auto whole = static_cast<std::uint32_t>(geometry.named_parts.size());
+        if (random() % 3 != 0) {
+            geometry.named_parts.push_back({"whole", elements[i], elements[end]});
+            const std::size_t from = i + random() % (end - i);
+            if (random() % 2 == 0)
+                geometry.named_parts.push_back({"within", elements[from], elements[end], whole});
+        }
+        i = end;
+    }
+    return elements;
+}
+
+/// "[whole][within]", the names of the parts with an element.
+std::string names_of(const Geometry& geometry, Element element) {
+    std::string names;
+    for (const NamedPart& part : geometry.named_parts)
+        if (part.first <= element && element < part.end)
+            names.append("[").append(part.name).append("]");
+    return names;
+}
+
+/// The same in the text of a group.
+std::string names_in(const std::string& text) {
+    std::string names;
+    for (std::size_t at = text.find("[w"); at != std::string::npos; at = text.find("[w", at + 1))
+        names += text.substr(at, text.find(']', at) + 1 - at);
+    return names;
+}
+
+/// Each group is there once, and none goes on as the innermost one of what stands beside it.
+void expect_faces_or_groups(const std::vector<std::string>& texts) {
+    std::set<std::string> ended;
+    for (std::size_t i = 1; i < texts.size(); ++i) {
+        if (texts[i] == texts[i - 1])
+            continue;
+        ended.insert(texts[i - 1]);
+        EXPECT_FALSE(ended.contains(texts[i])) << texts[i];
+        EXPECT_FALSE(texts[i].starts_with(texts[i - 1] + " > ")) << texts[i];
+        EXPECT_FALSE(texts[i - 1].starts_with(texts[i] + " > ")) << texts[i];
+    }
+}
+
 TEST(ObjectGroups, OfRandomPartsHoldFacesOrGroups) {
     std::mt19937 random(31);
     std::size_t deepest = 0;
     for (int round = 0; round < 600; ++round) {
         Scene scene;
         scene.materials.resize(2);
-        Geometry& geometry = scene.geometry;
-        std::vector<Element> elements;
-        const std::size_t meshes = 1 + random() % 3;
-        for (std::uint32_t i = 0; i < meshes; ++i) {
-            geometry.meshes.push_back(mesh_of(1 + random() % 5));
-            geometry.items.push_back(item(ItemKind::mesh, i + 1, MaterialId{i % 2}));
-            geometry.items.back().index = i;
-            for (std::uint32_t k = 0; k < geometry.meshes.back().triangle_count(); ++k)
-                elements.push_back({i, k});
-        }
-        elements.push_back({static_cast<std::uint32_t>(meshes), 0});
-        for (std::size_t i = 0; i + 1 < elements.size();) {
-            const std::size_t end = std::min(elements.size() - 1, i + 1 + random() % 5);
-            const auto whole = static_cast<std::uint32_t>(geometry.named_parts.size());
-            if (random() % 3 != 0) {
-                geometry.named_parts.push_back({"whole", elements[i], elements[end]});
-                const std::size_t from = i + random() % (end - i);
-                if (random() % 2 == 0)
-                    geometry.named_parts.push_back(
-                        {"within", elements[from], elements[end], whole});
-            }
-            i = end;
-        }
+        const std::vector<Element> elements = add_random_parts(random, scene.geometry);
         number_primitives(scene);
         const std::vector<std::string> texts = texts_of(scene);
-        std::set<std::string> ended;
         for (std::size_t i = 0; i < texts.size(); ++i) {
-            std::string names;
-            for (const NamedPart& part : geometry.named_parts)
-                if (part.first <= elements[i] && elements[i] < part.end)
-                    names += "[" + part.name + "]";
-            std::string told;
-            for (std::size_t at = texts[i].find("[w"); at != std::string::npos;
-                 at = texts[i].find("[w", at + 1))
-                told += texts[i].substr(at, texts[i].find(']', at) + 1 - at);
-            EXPECT_EQ(told, names) << texts[i];
+            EXPECT_EQ(names_in(texts[i]), names_of(scene.geometry, elements[i])) << texts[i];
             EXPECT_TRUE(
                 texts[i].ends_with(elements[i].item % 2 == 0 ? " .material-1" : " .material-2"));
             deepest += std::ranges::count(texts[i], '>') == 2 ? 1 : 0;
-            if (i == 0 || texts[i] == texts[i - 1])
-                continue;
-            EXPECT_FALSE(ended.contains(texts[i])) << texts[i];
-            ended.insert(texts[i - 1]);
-            // No group of the one goes on as the innermost one of the other.
-            EXPECT_FALSE(texts[i].starts_with(texts[i - 1] + " > ")) << texts[i];
-            EXPECT_FALSE(texts[i - 1].starts_with(texts[i] + " > ")) << texts[i];
         }
+        expect_faces_or_groups(texts);
     }
     EXPECT_GT(deepest, 100U);
 }
