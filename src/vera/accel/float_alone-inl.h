@@ -45,6 +45,14 @@ struct SingleStack {
         }
         return false;
     }
+
+    /// Takes the next one if that is a node which is not behind the limit; false where it is not.
+    HWY_INLINE bool take_node(float limit, TreeChild& next) {
+        if (end == begin || end[-1].is_block() != 0 || !(any || end[-1].near() <= limit))
+            return false;
+        next = *--end;
+        return true;
+    }
 };
 
 /// What one ray alone is searched for with: a Workspace only where there is doubt.
@@ -97,18 +105,34 @@ HWY_INLINE bool visit_leaf(AloneSearch<Tree>& search, const TreeChild& leaf, Sin
     return false;
 }
 
-/// Whether the ray starts near the one that this thread was asked about before: then it mostly goes
-/// the same ways at first, which are foreseen. What else is foreseen wrongly costs more than it
-/// brings.
-HWY_INLINE bool starts_near_last(const SingleRay& ray) {
+/// What a ray has in common with the one that this thread was asked about before.
+struct Likeness {
+    /// Then it mostly goes the same ways at first, which are foreseen. What else is foreseen
+    /// wrongly costs more than it brings.
+    bool starts_near;
+    /// It starts near and has nearly the same direction: then nearly all of its way is foreseen.
+    /// Others test two nodes at a time, as what is computed of one is waited for anyway.
+    bool runs_alike;
+};
+
+HWY_INLINE Likeness likeness_to_last(const SingleRay& ray) {
     constexpr float near = 0x1p-6F;
-    thread_local std::array<float, 3> last = {};
+
+    struct Last {
+        std::array<float, 3> origin;
+        std::array<float, 3> direction;
+    };
+
+    thread_local Last last = {};
     float apart = 0;
+    float turned = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        apart = std::max(apart, std::abs(ray.origin[axis] - last[axis]));
-        last[axis] = ray.origin[axis];
+        apart = std::max(apart, std::abs(ray.origin[axis] - last.origin[axis]));
+        turned = std::max(turned, std::abs(ray.direction[axis] - last.direction[axis]));
+        last.origin[axis] = ray.origin[axis];
+        last.direction[axis] = ray.direction[axis];
     }
-    return apart < near;
+    return {apart < near, std::max(apart, turned) < near};
 }
 
 // Where a ray goes on from a node of which it meets some children, as bits; false when nothing is
@@ -134,9 +158,8 @@ HWY_INLINE bool go_to_first(
 }
 
 /// At the nearest one; near_at and far_at as in put_met_children().
-template <typename Tree, typename NearAt, typename FarAt>
+template <typename NearAt, typename FarAt>
 HWY_INLINE bool go_to_nearest(
-    const Tree& tree,
     const WideNode& node,
     std::uint32_t met,
     std::size_t octant,
@@ -162,88 +185,123 @@ HWY_INLINE bool go_to_nearest(
     const PutChildren put = put_met_children(node, octant, near_at, far_at, stack.end);
     next = node.children[foresees ? foreseen(put.first) : put.first];
     stack.end += put.count - 1;
-    fetch(tree, stack.end[-1]);
     return true;
+}
+
+/// A ray as it is tested against the children of nodes, those of a register from number i on.
+class RayAtNodes {
+public:
+    RayAtNodes(const WideNode* nodes, std::size_t octant, const SingleRay& ray)
+        : inverse_(same_for_all(Children(), ray.inverse))
+        , near_offset_(same_for_all(Children(), ray.near_offset))
+        , far_offset_(same_for_all(Children(), ray.far_offset)) {
+        for (std::size_t j = 0; j < planes_.size(); ++j)
+            planes_[j] = nodes[0].planes[0].data() + plane_places[octant][j];
+    }
+
+    /// Where it enters their boxes, and not less than 0.
+    HWY_INLINE hn::Vec<Children> near_at(const TreeChild& node, std::size_t i) const {
+        return hn::BitCast(
+            Children(),
+            hn::Max(
+                hn::Max(
+                    crossing(node, 0, i, inverse_.x, near_offset_.x),
+                    crossing(node, 1, i, inverse_.y, near_offset_.y)),
+                hn::Max(crossing(node, 2, i, inverse_.z, near_offset_.z), hn::Zero(Bits()))));
+    }
+
+    /// Where it leaves them, and not more than the limit.
+    HWY_INLINE hn::Vec<Children> far_at(const TreeChild& node, std::size_t i, float limit) const {
+        return hn::BitCast(
+            Children(),
+            hn::Min(
+                hn::Min(
+                    crossing(node, 3, i, inverse_.x, far_offset_.x),
+                    crossing(node, 4, i, inverse_.y, far_offset_.y)),
+                hn::Min(
+                    crossing(node, 5, i, inverse_.z, far_offset_.z),
+                    hn::BitCast(Bits(), hn::Set(Children(), limit)))));
+    }
+
+private:
+    // As integers, numbers have the same order unless both are negative, which does not matter
+    // where they are compared with what is not; and which is larger is sooner known.
+    using Bits = hn::RebindToSigned<Children>;
+
+    HWY_INLINE hn::Vec<Bits> crossing(
+        const TreeChild& node,
+        std::size_t plane,
+        std::size_t i,
+        hn::Vec<Children> inverse,
+        hn::Vec<Children> offset) const {
+        const auto* const place = reinterpret_cast<const char*>(planes_[plane] + i);
+        const auto* const planes =
+            reinterpret_cast<const float*>(place + node.node_number() * sizeof(WideNode));
+        return hn::BitCast(Bits(), hn::MulAdd(hn::Load(Children(), planes), inverse, offset));
+    }
+
+    Vector<hn::Vec<Children>> inverse_;
+    Vector<hn::Vec<Children>> near_offset_;
+    Vector<hn::Vec<Children>> far_offset_;
+    /// Of the root; where others' are follows by one sum from a node's number.
+    std::array<const float*, 6> planes_;
+};
+
+/// Puts in place of the node on top of the stack, where it is one, its children that the ray meets.
+/// Its numbers are under way then, and computed with, beside those of the node that the ray is at:
+/// of one alone, each step waits for the one before.
+template <bool any>
+HWY_INLINE void test_ahead(
+    const WideNode* nodes,
+    const RayAtNodes& at_nodes,
+    std::size_t octant,
+    float limit,
+    SingleStack<any>& stack) {
+    TreeChild top;
+    if (!stack.take_node(limit, top))
+        return;
+    const WideNode& node = nodes[top.node_number()];
+    const auto near_at = [&](std::size_t i) HWY_ATTR { return at_nodes.near_at(top, i); };
+    const auto far_at = [&](std::size_t i) HWY_ATTR { return at_nodes.far_at(top, i, limit); };
+    if constexpr (any)
+        stack.end += put_any_children(node, near_at, far_at, stack.end);
+    else
+        stack.end += put_met_children(node, octant, near_at, far_at, stack.end).count;
 }
 
 /// Follows one ray of an octant down from the root; true when it is only asked whether it meets
 /// anything, and it does.
 template <bool any, typename Tree>
-HWY_INLINE bool
-follow_single(AloneSearch<Tree>& search, std::size_t octant, bool foresees, SingleRay& ray) {
-    const Tree& tree = search.tree;
-    const Children d;
-    const auto all = [&](float number) HWY_ATTR { return hn::Set(d, number); };
-    // As integers, numbers have the same order unless both are negative, which does not matter
-    // where they are compared with what is not; and which is larger is sooner known.
-    const hn::RebindToSigned<Children> di;
-    const auto bits = [&](hn::Vec<Children> numbers) HWY_ATTR { return hn::BitCast(di, numbers); };
-    const auto inverse_x = all(ray.inverse[0]);
-    const auto inverse_y = all(ray.inverse[1]);
-    const auto inverse_z = all(ray.inverse[2]);
-    const auto near_x = all(ray.near_offset[0]);
-    const auto near_y = all(ray.near_offset[1]);
-    const auto near_z = all(ray.near_offset[2]);
-    const auto far_x = all(ray.far_offset[0]);
-    const auto far_y = all(ray.far_offset[1]);
-    const auto far_z = all(ray.far_offset[2]);
-    const WideNode* const nodes = tree.nodes.data();
-    // Those of the root; where the others' are follows by one sum from a node's number.
-    const auto planes_at = [&](std::size_t j) {
-        return reinterpret_cast<const char*>(nodes[0].planes[0].data() + plane_places[octant][j]);
-    };
-    const char* const planes_near_x = planes_at(0);
-    const char* const planes_near_y = planes_at(1);
-    const char* const planes_near_z = planes_at(2);
-    const char* const planes_far_x = planes_at(3);
-    const char* const planes_far_y = planes_at(4);
-    const char* const planes_far_z = planes_at(5);
-    alignas(64) std::byte waiting[waiting_depth(most_tree_levels) * sizeof(TreeChild)];
+HWY_INLINE bool follow_single(
+    AloneSearch<Tree>& search, std::size_t octant, const Likeness& likeness, SingleRay& ray) {
+    const WideNode* const nodes = search.tree.nodes.data();
+    const RayAtNodes at_nodes(nodes, octant, ray);
+    // What waits stands by levels, the deepest on top. So where a node on top is tested ahead, none
+    // of its children's level waits: of each, the children of two nodes are there at most.
+    alignas(64) std::byte waiting[2 * waiting_depth(most_tree_levels) * sizeof(TreeChild)];
     SingleStack<any> stack = {
         reinterpret_cast<TreeChild*>(waiting), reinterpret_cast<TreeChild*>(waiting)};
     TreeChild next = TreeChild::node(0);
     while (true) {
         while (next.is_block() == 0) {
-            const WideNode& node = nodes[next.node_number()];
-            const std::size_t node_place = next.node_number() * sizeof(WideNode);
-            const auto met_at = [&](const char* planes,
-                                    std::size_t i,
-                                    hn::Vec<Children> inverse,
-                                    hn::Vec<Children> offset) HWY_ATTR {
-                return hn::MulAdd(
-                    hn::Load(d, reinterpret_cast<const float*>(planes + node_place) + i),
-                    inverse,
-                    offset);
-            };
-            const auto near_at = [&](std::size_t i) HWY_ATTR {
-                return hn::BitCast(
-                    d,
-                    hn::Max(
-                        hn::Max(
-                            bits(met_at(planes_near_x, i, inverse_x, near_x)),
-                            bits(met_at(planes_near_y, i, inverse_y, near_y))),
-                        hn::Max(bits(met_at(planes_near_z, i, inverse_z, near_z)), hn::Zero(di))));
-            };
-            const auto far_at = [&](std::size_t i) HWY_ATTR {
-                return hn::BitCast(
-                    d,
-                    hn::Min(
-                        hn::Min(
-                            bits(met_at(planes_far_x, i, inverse_x, far_x)),
-                            bits(met_at(planes_far_y, i, inverse_y, far_y))),
-                        hn::Min(
-                            bits(met_at(planes_far_z, i, inverse_z, far_z)),
-                            bits(all(ray.limit)))));
-            };
+            const TreeChild here = next;
+            const auto near_at = [&](std::size_t i) HWY_ATTR { return at_nodes.near_at(here, i); };
+            const auto far_at = [&](std::size_t i)
+                                    HWY_ATTR { return at_nodes.far_at(here, i, ray.limit); };
+            if (!likeness.runs_alike)
+                test_ahead(nodes, at_nodes, octant, ray.limit, stack);
+            const Children d;
             std::uint32_t met = 0;
             for (std::size_t i = 0; i < tree_width; i += hn::Lanes(d))
                 met |= bits_of(d, hn::Le(near_at(i), far_at(i))) << i;
+            const WideNode& node = nodes[here.node_number()];
+            const bool foresees = likeness.starts_near;
             bool left = false;
             if constexpr (any)
                 left = go_to_first(node, met, foresees, stack, next);
             else
                 left = go_to_nearest(
-                    tree, node, met, octant, foresees, near_at, far_at, ray.limit, stack, next);
+                    node, met, octant, foresees, near_at, far_at, ray.limit, stack, next);
             if (!left)
                 return false;
         }
@@ -267,7 +325,7 @@ search_nearest_alone_in(const Tree& tree, const IndexRay& given, typename Tree::
     }
     AloneSearch<Tree> search = {{tree}};
     add_numbers(search, ray);
-    follow_single<false>(search, octant, starts_near_last(ray), ray);
+    follow_single<false>(search, octant, likeness_to_last(ray), ray);
     if (HWY_UNLIKELY(search.space != nullptr))
         hit = decide_doubtful(
             search, search.space->doubtful, given, ray.leaf, ray.place, search.last_doubtful);
@@ -287,7 +345,7 @@ HWY_INLINE bool search_any_alone_in(const Tree& tree, const IndexRay& given) {
         return meets_any_plainly(tree, given);
     AloneSearch<Tree> search = {{tree}};
     add_numbers(search, ray);
-    return follow_single<true>(search, octant, starts_near_last(ray), ray);
+    return follow_single<true>(search, octant, likeness_to_last(ray), ray);
 }
 
 } // namespace vera::detail::HWY_NAMESPACE

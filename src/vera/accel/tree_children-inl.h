@@ -160,6 +160,33 @@ HWY_INLINE PutChildren put_met_children(
 #endif
 }
 
+/// The same for rays that come to children by their numbers, without where they are entered;
+/// returns how many are met.
+template <typename NearAt, typename FarAt>
+HWY_INLINE std::uint32_t put_any_children(
+    const WideNode& node, const NearAt& near_at, const FarAt& far_at, TreeChild* stack) {
+#if VERA_AVX512
+    const __m256i last_first = _mm256_setr_epi32(7, 6, 5, 4, 3, 2, 1, 0);
+    const __mmask8 met = _mm256_cmp_ps_mask(
+        _mm256_permutevar8x32_ps(near_at(0).raw, last_first),
+        _mm256_permutevar8x32_ps(far_at(0).raw, last_first),
+        _CMP_LE_OQ);
+    const __m512i children = _mm512_permutexvar_epi64(
+        _mm512_cvtepi32_epi64(last_first), _mm512_load_si512(node.children.data()));
+    _mm512_storeu_si512(stack, _mm512_maskz_compress_epi64(met, children));
+    return static_cast<std::uint32_t>(std::popcount(static_cast<std::uint32_t>(met)));
+#else
+    const Children d;
+    std::uint32_t met = 0;
+    for (std::size_t i = 0; i < tree_width; i += hn::Lanes(d))
+        met |= bits_of(d, hn::Le(near_at(i), far_at(i))) << i;
+    const auto size = static_cast<std::uint32_t>(std::popcount(met));
+    for (TreeChild* place = stack + size; met != 0; met &= met - 1)
+        *--place = node.children[static_cast<std::size_t>(std::countr_zero(met))];
+    return size;
+#endif
+}
+
 /// Drops what waits behind the limit, which is at least 0, of a stack of this size; returns how
 /// much is left. Whole registers are stored.
 HWY_INLINE std::uint32_t drop_behind(TreeChild* stack, std::uint32_t size, float limit) {
