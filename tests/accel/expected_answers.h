@@ -68,14 +68,16 @@ void expect_answers_one_by_one(
             << what << ", ray " << i << ": found " << told(nearest) << ", expected "
             << told(expected[i].nearest) << "\n"
             << told(rays[i]);
-        ASSERT_EQ(index.meets_any(rays[i]), expected[i].met) << what << ", ray " << i << "\n"
-                                                             << told(rays[i]);
         const auto all = index.all_hits(rays[i]);
         ASSERT_TRUE(same_bits(all, expected[i].all))
             << what << ", ray " << i << ": found " << all.size() << " hits, expected "
             << expected[i].all.size() << "\n"
             << told(rays[i]);
     }
+    // By themselves: how a ray is followed depends on the one that was asked about before.
+    for (std::size_t i = 0; i < rays.size(); ++i)
+        ASSERT_EQ(index.meets_any(rays[i]), expected[i].met) << what << ", ray " << i << "\n"
+                                                             << told(rays[i]);
 }
 
 template <typename Index, typename Answer>
