@@ -276,6 +276,8 @@ HWY_INLINE bool follow_single(
     AloneSearch<Tree>& search, std::size_t octant, const Likeness& likeness, SingleRay& ray) {
     const WideNode* const nodes = search.tree.nodes.data();
     const RayAtNodes at_nodes(nodes, octant, ray);
+    // Without registers that compress, putting children costs more.
+    const bool tests_ahead = !(VERA_AVX512 == 1 ? likeness.runs_alike : likeness.starts_near);
     // What waits stands by levels, the deepest on top. So where a node on top is tested ahead, none
     // of its children's level waits: of each, the children of two nodes are there at most.
     alignas(64) std::byte waiting[2 * waiting_depth(most_tree_levels) * sizeof(TreeChild)];
@@ -288,7 +290,7 @@ HWY_INLINE bool follow_single(
             const auto near_at = [&](std::size_t i) HWY_ATTR { return at_nodes.near_at(here, i); };
             const auto far_at = [&](std::size_t i)
                                     HWY_ATTR { return at_nodes.far_at(here, i, ray.limit); };
-            if (!likeness.runs_alike)
+            if (tests_ahead)
                 test_ahead(nodes, at_nodes, octant, ray.limit, stack);
             const Children d;
             std::uint32_t met = 0;
