@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/accel/mesh_tree.h"
+#include "vera/accel/ray_order.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -66,7 +67,9 @@ void search_nearest(
         std::fill(hits.begin(), hits.end(), MeshHit{});
         return;
     }
-    HWY_DYNAMIC_DISPATCH(search_nearest_kernel)(tree, rays, hits, counts);
+    search_in_order(rays, hits, [&](auto some_rays, auto some_hits) {
+        HWY_DYNAMIC_DISPATCH(search_nearest_kernel)(tree, some_rays, some_hits, counts);
+    });
 }
 
 void search_any(
@@ -78,7 +81,9 @@ void search_any(
         std::fill(met.begin(), met.end(), std::uint8_t{0});
         return;
     }
-    HWY_DYNAMIC_DISPATCH(search_any_kernel)(tree, rays, met, counts);
+    search_in_order(rays, met, [&](auto some_rays, auto some_met) {
+        HWY_DYNAMIC_DISPATCH(search_any_kernel)(tree, some_rays, some_met, counts);
+    });
 }
 
 void search_nearest_alone(const MeshTree& tree, const MeshRay& ray, MeshHit& hit) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "vera/accel/ray_order.h"
 #include "vera/accel/sphere_tree.h"
 
 #include <algorithm>
@@ -65,7 +66,9 @@ void search_nearest(
         std::fill(hits.begin(), hits.end(), SphereHit{});
         return;
     }
-    HWY_DYNAMIC_DISPATCH(search_nearest_kernel)(tree, rays, hits, counts);
+    search_in_order(rays, hits, [&](auto some_rays, auto some_hits) {
+        HWY_DYNAMIC_DISPATCH(search_nearest_kernel)(tree, some_rays, some_hits, counts);
+    });
 }
 
 void search_any(
@@ -77,7 +80,9 @@ void search_any(
         std::fill(met.begin(), met.end(), std::uint8_t{0});
         return;
     }
-    HWY_DYNAMIC_DISPATCH(search_any_kernel)(tree, rays, met, counts);
+    search_in_order(rays, met, [&](auto some_rays, auto some_met) {
+        HWY_DYNAMIC_DISPATCH(search_any_kernel)(tree, some_rays, some_met, counts);
+    });
 }
 
 void search_nearest_alone(const SphereTree& tree, const IndexRay& ray, SphereHit& hit) {
