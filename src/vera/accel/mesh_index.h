@@ -77,7 +77,8 @@ struct MeshTree;
 /// Of many rays, those that follow each other should go nearly the same way where that is possible:
 /// sixteen that start at one place, as of a square of 4 x 4 pixels, go through the index together,
 /// and so do sixteen that run nearly alike where only is asked whether they meet anything, as those
-/// to a light; of others those of 256 whose directions have the same signs.
+/// to a light; of others those of 256 whose directions have the same signs. Thousands in one span
+/// that start far from each other are put in order first.
 class MeshIndex {
 public:
     /// Throws std::invalid_argument where a triangle names a vertex that there is not,
