@@ -146,6 +146,26 @@ public:
 
     /// The colour of the last outline that covers the point; see Gradient for how it is meant.
     Color color(DrawingPoint point) const {
+        const FilledOutline* last = last_at(point);
+        return last != nullptr ? color_of(*last, point)
+                               : as_color(drawing_.background.value_or(DrawingColor{}));
+    }
+
+    /// The id of that outline; empty where the background is seen.
+    std::string name(DrawingPoint point) const {
+        const FilledOutline* last = last_at(point);
+        return last != nullptr ? last->id : std::string();
+    }
+
+private:
+    struct Side {
+        DrawingPoint from;
+        DrawingPoint to;
+        std::uint32_t outline = 0;
+    };
+
+    /// The last outline that covers the point.
+    const FilledOutline* last_at(DrawingPoint point) const {
         std::vector<std::pair<std::uint32_t, int>> turns;
         for (const Side& side : sides_[row_of(point.y)]) {
             const bool down = side.from.y <= point.y && point.y < side.to.y;
@@ -163,17 +183,10 @@ public:
             for (; !turns.empty() && turns.back().first == last; turns.pop_back())
                 sum += turns.back().second;
             if (sum != 0)
-                return color_of(drawing_.fills[last], point);
+                return &drawing_.fills[last];
         }
-        return as_color(drawing_.background.value_or(DrawingColor{}));
+        return nullptr;
     }
-
-private:
-    struct Side {
-        DrawingPoint from;
-        DrawingPoint to;
-        std::uint32_t outline = 0;
-    };
 
     static Color as_color(DrawingColor color) {
         return {color.r / 255.0, color.g / 255.0, color.b / 255.0};
@@ -232,6 +245,7 @@ struct Comparison {
     double most = 0;         ///< of 255
     double most_beyond = 0;  ///< likewise
     nlohmann::ordered_json worst;
+    nlohmann::ordered_json places = nlohmann::ordered_json::array(); ///< that are off
 };
 
 Comparison compared(const Rays& rays, const Drawing& drawing, std::size_t points) {
@@ -261,7 +275,17 @@ Comparison compared(const Rays& rays, const Drawing& drawing, std::size_t points
         };
         const bool is_off = !is_shown(seen.color);
         result.off += is_off ? 1 : 0;
-        result.shadow += is_off && std::ranges::any_of(seen.switched, is_shown) ? 1 : 0;
+        const bool is_shadow = is_off && std::ranges::any_of(seen.switched, is_shown);
+        result.shadow += is_shadow ? 1 : 0;
+        if (is_off)
+            result.places.push_back(
+                {{"x", at.x},
+                 {"y", at.y},
+                 {"primitive", seen.face.primitive},
+                 {"path", fills.name(at)},
+                 {"off", 255 * error},
+                 {"beyond", 255 * (error - slack)},
+                 {"shadow", is_shadow}});
         result.far_off += error > 2 * tolerance ? 1 : 0;
         result.most = std::max(result.most, 255 * error);
         result.beyond += error - slack > rounding * tolerance ? 1 : 0;
@@ -319,6 +343,7 @@ void measure(const std::string& path, const std::string& control, std::size_t po
         {"beyond", found.beyond},
         {"most_beyond", found.most_beyond},
         {"worst", found.worst},
+        {"places", found.places},
         {"paths", drawn.drawing.fills.size()},
         {"stops", stops},
         {"bytes", svg.size()}};

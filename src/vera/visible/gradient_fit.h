@@ -1,43 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
+// Colours and gradients that come near to samples of a field.
 #pragma once
 
 #include "vera/drawing/drawing.h"
 #include "vera/math/color.h"
+#include "vera/visible/color_samples.h"
 
-#include <functional>
 #include <optional>
 #include <span>
-#include <vector>
 
 namespace vera {
-
-/// The colour, 1 for 255, at a point of the picture.
-using ColorField = std::function<Color(DrawingPoint)>;
-
-/// What a field is like at a point.
-struct ColorSample {
-    DrawingPoint point;
-    Color color;
-    double slack = 0;   ///< by how much more than elsewhere a paint may differ here, 1 for 255
-    Color slope_x = {}; ///< how the color changes by pixels to the right, about
-    Color slope_y = {}; ///< and downward
-};
-
-/// The sample at the point. Its slack is how much the field changes within that many pixels.
-ColorSample color_sample(DrawingPoint point, const ColorField& field, double within);
-
-/// A point, and the colour there.
-struct PointColor {
-    DrawingPoint point;
-    Color color;
-};
-
-/// The same where the colour at the point is known.
-ColorSample color_sample(const PointColor& at, const ColorField& field, double within);
-
-/// The samples at the points.
-std::vector<ColorSample>
-color_samples(std::span<const DrawingPoint> points, const ColorField& field, double within);
 
 /// A colour or gradient, and by how much it differs at most from the samples that it was made for,
 /// in any of red, green and blue, beyond their slack; 1 for 255.
