@@ -18,6 +18,7 @@ using Point = ContourPiece::Point;
 
 constexpr int most_steps = 16;
 constexpr double near = 1e-6; // of the parameter: the next one is off by the square of that, about
+constexpr double nearby = 1e-4; // likewise, for places that are all but known
 
 /// The way of a ray round an axis: h = h + t dh along it, and r^2 = rr + 2 t rd + t^2 dd off it.
 struct WayRoundAxis {
@@ -173,9 +174,11 @@ std::optional<CurvedPiece::Place> CurvedPiece::meeting(const Ray& ray, const Pas
     return std::nullopt;
 }
 
-std::optional<Vec3> CurvedPiece::normal_near(Vec3 point, double& parameter) const {
-    if (sphere_ != nullptr)
-        return normalized(point - sphere_->center);
+std::optional<CurvedPiece::Nearest> CurvedPiece::nearest_to(Vec3 point, double& parameter) const {
+    if (sphere_ != nullptr) {
+        const Vec3 way = point - sphere_->center;
+        return Nearest{normalized(way), length(way) - sphere_->radius};
+    }
     const Vec3 from_base = point - shape_->base;
     const double h = dot(from_base, shape_->axis);
     const Vec3 across = from_base - h * shape_->axis;
@@ -185,13 +188,36 @@ std::optional<Vec3> CurvedPiece::normal_near(Vec3 point, double& parameter) cons
         const Contact contact = contact_at(v);
         const double step = std::clamp(v + step_towards(contact, {r, h}), 0.0, 1.0) - v;
         v += step;
-        if (std::abs(step) < near && r > 0) {
+        if (std::abs(step) < nearby && r > 0) {
             parameter = v;
             const Point out = contact.out();
-            return out.r / r * across + out.h * shape_->axis;
+            return Nearest{
+                out.r / r * across + out.h * shape_->axis,
+                out.r * (r - contact.point.r) + out.h * (h - contact.point.h)};
         }
     }
     return std::nullopt;
+}
+
+std::optional<CurvedPiece::Place>
+CurvedPiece::meeting_near(const Ray& ray, double t, double& parameter) const {
+    // Newton's method, whose steps become shorter the more the ray goes along the surface, where it
+    // would end far away: they are those of the normal equation with a slight term added
+    // (Levenberg 1944).
+    constexpr double slight = 0.01; // squared cosine of the ray and the normal
+    const double squared = dot(ray.direction, ray.direction);
+    const auto step = [&](const Nearest& nearest) {
+        const double speed = dot(nearest.normal, ray.direction);
+        return -nearest.off * speed / (speed * speed + slight * squared);
+    };
+    const std::optional<Nearest> first = nearest_to(point_at(ray, t), parameter);
+    if (!first)
+        return std::nullopt;
+    t += step(*first);
+    const std::optional<Nearest> second = nearest_to(point_at(ray, t), parameter);
+    if (!second)
+        return std::nullopt;
+    return Place{t + step(*second), second->normal};
 }
 
 double CurvedPiece::parameter_near(Vec3 point) const {

@@ -31,10 +31,11 @@ public:
     /// is not found in some steps.
     std::optional<Place> meeting(const Ray& ray, const Passage& passage) const;
 
-    /// The surface's unit normal at the place that is nearest to the point. Looked for is from the
-    /// parameter, of a contour, on, which becomes that of the place. Nothing where it is not found
-    /// in some steps.
-    std::optional<Vec3> normal_near(Vec3 point, double& parameter) const;
+    /// Where the ray meets the surface near to the point at t, which is all but on it; where it
+    /// goes along the surface, no farther than ten times as far as that is off. Looked for is from
+    /// the parameter, of a contour, on, which becomes that of the place. Nothing where it is not
+    /// found in some steps.
+    std::optional<Place> meeting_near(const Ray& ray, double t, double& parameter) const;
 
     /// The parameter of the place of the contour that is nearest to the point; 0 of a sphere.
     double parameter_near(Vec3 point) const;
@@ -43,8 +44,15 @@ private:
     /// A place on the contour, and the tangent there.
     struct Contact;
 
+    /// The place of the surface nearest to a point.
+    struct Nearest {
+        Vec3 normal;    ///< unit, towards the outside
+        double off = 0; ///< how far the point is outside
+    };
+
     std::optional<Place> sphere_meeting(const Ray& ray, const Passage& passage) const;
     Contact contact_at(double parameter) const;
+    std::optional<Nearest> nearest_to(Vec3 point, double& parameter) const;
     double step_towards(const Contact& contact, ContourPiece::Point point) const;
 
     const Sphere* sphere_ = nullptr; ///< or else the shape

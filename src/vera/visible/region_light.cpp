@@ -105,13 +105,13 @@ SurfacePoint RegionLight::on_facet(const Ray& ray) const {
     const Vec3 point = point_at(ray, t);
     if (flat_normal_)
         return at(point, *flat_normal_);
-    const Vec3 place = transformed_point(path_.from_world, point);
+    const Ray local = transformed_ray(path_.from_world, ray);
     double parameter = parameter_;
-    const std::optional<Vec3> normal =
-        curved_ ? curved_->normal_near(place, parameter) : std::nullopt;
-    SurfacePoint surface = normal
-        ? at(point, *normal)
-        : carried_to_main_scene(path_, surface_within(path_, facet_.piece, place));
+    const std::optional<CurvedPiece::Place> met =
+        curved_ ? curved_->meeting_near(local, t, parameter) : std::nullopt;
+    SurfacePoint surface = met
+        ? at(point_at(ray, met->t), met->normal)
+        : carried_to_main_scene(path_, surface_within(path_, facet_.piece, point_at(local, t)));
     if (curved_)
         turn_towards_viewer(surface, ray.direction, speed < 0);
     return surface;

@@ -21,8 +21,8 @@ namespace vera {
 /// What a face gives back towards the viewer, place by place of the picture: the lighting formula
 /// (VERA 2.3) without mirrors and glass, with the lights that reach it. Patches have their
 /// interpolated normal, and the facets of a curved surface that of the surface itself: of the side
-/// of a convex piece (FaceUnit::smooth) where the ray meets it, of others where it meets the facet.
-/// Refers to the scene.
+/// of a convex piece (FaceUnit::smooth) where the ray meets it, of others where it does near the
+/// facet. Refers to the scene.
 class RegionLight {
 public:
     RegionLight(
