@@ -195,7 +195,7 @@ SeenScene seen_scene(Request& request) {
 
 /// Adds the borders of shadows to what is seen.
 ShadowCounts see_shadows(Request& request, SeenScene& seen) {
-    const ThrownShadows thrown(
+    ThrownShadows thrown(
         {request.scene,
          seen.facets,
          seen.faces,
@@ -207,15 +207,17 @@ ShadowCounts see_shadows(Request& request, SeenScene& seen) {
         seen.screen,
         request.next_stage(request.times.shadows),
         request.cancel);
+    ShadowCounts counts = thrown.counts();
+    const ExpectPieces expect =
+        request.expect_pieces(seen.screen, seen.curved_part, thrown.count());
     ShadowedPieces shadowed = shadowed_cell_raster(
         seen.screen,
         std::move(seen.whole.pieces),
-        thrown,
+        std::move(thrown),
         request.next_stage(request.times.seeing_shadows),
         request.cancel,
-        request.expect_pieces(seen.screen, seen.curved_part, thrown.count()));
+        expect);
     seen.whole.pieces = std::move(shadowed.pieces);
-    ShadowCounts counts = thrown.counts();
     counts.shadows = shadowed.shadows;
     return counts;
 }
@@ -269,14 +271,7 @@ Drawing painted(Request& request, SeenScene& seen, VisibleMap map) {
         kept->faces,
         kept->map,
         settings.deviation};
-    if (has_fills(settings.style)) {
-        const FillSources of_fills = {sources, settings.style, settings.color_tolerance};
-        const Progress progress = request.next_stage(request.times.fills);
-        if (settings.outlines == FaceOutlines::later)
-            add_later_fills(of_fills, kept, progress, request.cancel, drawing);
-        else
-            add_fills(of_fills, progress, request.cancel, drawing);
-    }
+    // First, as they are made of more, which is forgotten then.
     if (has_lines(settings.style))
         add_strokes(
             {sources, std::move(seen.screen), std::move(seen.whole.pieces), std::move(seen.uncut)},
@@ -285,6 +280,14 @@ Drawing painted(Request& request, SeenScene& seen, VisibleMap map) {
             request.next_stage(request.times.lines),
             request.cancel,
             drawing);
+    if (has_fills(settings.style)) {
+        const FillSources of_fills = {sources, settings.style, settings.color_tolerance};
+        const Progress progress = request.next_stage(request.times.fills);
+        if (settings.outlines == FaceOutlines::later)
+            add_later_fills(of_fills, kept, progress, request.cancel, drawing);
+        else
+            add_fills(of_fills, progress, request.cancel, drawing);
+    }
     free_room(kept->map.vertices);
     if (settings.style != DrawingStyle::shaded) {
         kept->facets = {};
@@ -305,7 +308,8 @@ std::size_t count_seen_faces(const VisibleMap& map) {
 /// In style ids nothing asks what is seen across a ring, but for the check.
 VisibleMap map_of(const Request& request, SeenScene& seen, const Progress& progress) {
     if (has_lines(request.settings.style)) {
-        VisibleMap map = visible_map(seen.screen, seen.whole.pieces, progress, request.cancel);
+        VisibleMap map =
+            visible_map_with_points_of(seen.whole.pieces, seen.screen, progress, request.cancel);
         free_room(seen.whole.pieces.unlit); // lines ask for faces alone
         return map;
     }
@@ -334,6 +338,7 @@ DrawnScene drawn_scene(Request request) {
     }
     const Progress of_map = request.next_stage(request.times.map);
     join_faces(request, seen);
+    give_back_freed_memory();
     VisibleMap map = map_of(request, seen, of_map);
     drawn.visible_faces = count_seen_faces(map);
     // At borders of shadows surfaces part what is seen along lines a step from each other: there a

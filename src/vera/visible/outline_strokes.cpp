@@ -29,7 +29,8 @@ namespace vera {
 
 namespace {
 
-/// The lines of a drawing in parts, and the points between them.
+/// The lines of a drawing in parts, and the points between them where these are not the map's
+/// vertices alone.
 struct LineParts {
     std::vector<LinePart> parts;
     std::vector<PackedPoint> points;
@@ -73,8 +74,8 @@ void add_joined_parts(
             continue;
         const std::optional<LineClass> line_class =
             rules.class_of_meeting(one.ends, one.face, other.face);
-        const RationalPoint begin = sources.pieces.points[one.ends[0]];
-        const RationalPoint end = sources.pieces.points[one.ends[1]];
+        const RationalPoint begin = sources.map.vertices[one.ends[0]];
+        const RationalPoint end = sources.map.vertices[one.ends[1]];
         // Within one step of the grid there is nothing to see, nor a direction.
         if (!line_class || begin.whole == end.whole)
             continue;
@@ -110,7 +111,8 @@ std::vector<LinePart> visible_parts(
     std::vector<LinePart> parts;
     parts.reserve(
         classes.size()
-        - static_cast<std::size_t>(std::count(classes.begin(), classes.end(), no_class)));
+        - static_cast<std::size_t>(std::count(classes.begin(), classes.end(), no_class))
+        + sources.map.joined_sides.size() / 2);
     const LongLoop loop(pieces.size(), {}, cancel);
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         loop.turn(i);
@@ -383,15 +385,14 @@ LineParts line_parts(
             sources.facets,
             sources.faces,
             sources.screen,
-            sources.pieces.points);
+            sources.map.vertices);
         lines.parts = visible_parts(sources, rules, extra, cancel);
         stop_if_raised(cancel);
         const Progress of_hidden = stages.next(3);
         if (extra.hidden) {
-            lines.points = sources.pieces.points;
+            sources.pieces.points = sources.map.vertices;
+            lines.points = sources.map.vertices;
             add_hidden_parts(sources, rules, of_hidden, cancel, lines);
-        } else {
-            lines.points = std::move(sources.pieces.points);
         }
     }
     for (ScreenScene* screen : {&sources.screen, &sources.uncut}) {
@@ -419,9 +420,10 @@ void add_strokes(
     LineParts lines = line_parts(sources, extra, stages, cancel);
 
     next_stage(1);
+    const std::vector<PackedPoint>& points = extra.hidden ? lines.points : sources.map.vertices;
     std::vector<DrawingPoint> places;
-    places.reserve(lines.points.size());
-    for (const PackedPoint& point : lines.points)
+    places.reserve(points.size());
+    for (const PackedPoint& point : points)
         places.push_back(in_pixels(sources.picture, point));
     free_room(lines.points);
     leave_out_second_lines(

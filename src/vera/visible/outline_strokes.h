@@ -12,8 +12,8 @@ namespace vera {
 /// What lines are drawn from; what is theirs alone is forgotten on the way.
 struct StrokeSources : MapSources {
     ScreenScene screen;
-    VisiblePieces pieces;
-    ScreenScene uncut; ///< for hidden lines: before what penetrates was cut
+    VisiblePieces pieces; ///< whose points are the map's vertices, and not there
+    ScreenScene uncut;    ///< for hidden lines: before what penetrates was cut
 };
 
 /// Lines that not every drawing is to have.

@@ -6,52 +6,138 @@
 #include "vera/visible/first_equal.h"
 #include "vera/visible/point_numbers.h"
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 
 namespace vera {
 
 namespace {
 
-/// The points of the parts, each once, in the order in which they come; numbers tells which of them
-/// each is, one part's behind the other's. Takes them out of the parts.
-std::vector<PackedPoint>
-joined_points(std::vector<VisiblePieces>& parts, std::vector<std::uint32_t>& numbers) {
-    std::size_t count = 0;
-    for (const VisiblePieces& part : parts)
-        count += part.points.size();
-    std::vector<PackedPoint> points;
-    points.reserve(count);
-    for (VisiblePieces& part : parts) {
-        points.insert(points.end(), part.points.begin(), part.points.end());
-        free_room(part.points);
+/// The points of the parts by one number, as if they stood one part's behind the other's.
+class PartedPoints {
+public:
+    explicit PartedPoints(const std::vector<VisiblePieces>& parts)
+        : parts_(parts) {
+        for (const VisiblePieces& part : parts)
+            starts_.push_back(starts_.back() + part.points.size());
+        for (std::size_t part = 0, i = 0; i < count(); i += block) {
+            while (starts_[part + 1] <= i)
+                ++part;
+            part_of_block_.push_back(part);
+        }
     }
-    give_back_freed_memory();
+
+    std::size_t count() const { return starts_.back(); }
+
+    /// With which number the part begins.
+    std::size_t start(std::size_t part) const { return starts_[part]; }
+
+    const PackedPoint& operator[](std::size_t i) const {
+        std::size_t part = part_of_block_[i / block];
+        while (starts_[part + 1] <= i)
+            ++part;
+        return parts_[part].points[i - starts_[part]];
+    }
+
+private:
+    static constexpr std::size_t block = 1024; ///< points: hardly as many as a part has
+
+    const std::vector<VisiblePieces>& parts_;
+    std::vector<std::size_t> starts_ = {0};
+    std::vector<std::size_t> part_of_block_; ///< in which each block's first point is
+};
+
+/// The points of the parts, each once, in the order in which they come; numbers tells which of them
+/// each is. Takes them out of the parts. room_beside(count) is that for others behind them.
+template <typename RoomBeside>
+std::vector<PackedPoint> joined_points(
+    const PartedPoints& parted,
+    std::vector<VisiblePieces>& parts,
+    std::vector<std::uint32_t>& numbers,
+    const RoomBeside& room_beside) {
     numbers = first_equal(
-        points.size(),
-        [&](std::size_t i) { return hash_of(points[i]); },
-        [&](std::size_t i, std::size_t j) { return points[i] == points[j]; });
+        parted.count(),
+        [&](std::size_t i) { return hash_of(parted[i]); },
+        [&](std::size_t i, std::size_t j) { return parted[i] == parted[j]; });
     const std::vector<std::uint32_t> firsts = number_consecutively(numbers);
-    for (std::size_t i = 0; i < firsts.size(); ++i)
-        points[i] = points[firsts[i]]; // which is not before i
-    points.resize(firsts.size());
+    std::vector<PackedPoint> points;
+    points.reserve(firsts.size() + room_beside(firsts.size()));
+    FreedBlocks freed;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const std::size_t start = parted.start(i);
+        for (const std::size_t end = parted.start(i + 1);
+             points.size() < firsts.size() && firsts[points.size()] < end;)
+            points.push_back(parts[i].points[firsts[points.size()] - start]);
+        freed.free(parts[i].points);
+    }
     return points;
 }
 
-/// Of each of the points its number among the others or, where it is none of these, how many these
-/// are and its own number.
-std::vector<std::uint32_t>
-numbers_behind(std::vector<PackedPoint>& others, const std::vector<PackedPoint>& points) {
-    const PointNumbers numbers(others, others.size());
-    std::vector<std::uint32_t> result(points.size());
-    parallel_ranges(points.size(), 4096, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) {
-            result[i] = numbers.find(points[i]);
-            if (result[i] == PointNumbers::none)
-                result[i] = static_cast<std::uint32_t>(others.size() + i);
+/// Lets the vector grow to that size, where it has no room for it in a room of that size alone.
+template <typename T>
+void grow_to(std::size_t size, std::vector<T>& vector) {
+    vector.reserve(size);
+    vector.resize(size);
+}
+
+/// Forgets those of the host's points that no piece has or that the guest has as well, and puts the
+/// guest's behind the others. Returns of each point that the host had the place that it has now,
+/// which means nothing where it is forgotten and no piece has it.
+std::vector<std::uint32_t> take_points_in(
+    std::vector<PackedPoint>& points,
+    const std::vector<VisiblePiece>& pieces,
+    std::vector<PackedPoint>& guests) {
+    constexpr std::uint32_t none = PointNumbers::none;
+    std::vector<std::uint32_t> places(points.size(), none);
+    for (const VisiblePiece& piece : pieces)
+        places[piece.from] = places[piece.to] = 0;
+    {
+        const PointNumbers numbers(guests, guests.size());
+        constexpr std::uint32_t unused = none - 1;
+        parallel_ranges(points.size(), 4096, [&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i)
+                places[i] = places[i] == none ? unused : numbers.find(points[i]);
+        });
+        std::uint32_t own = 0;
+        for (std::size_t i = 0; i < places.size(); ++i)
+            if (places[i] == none)
+                points[own++] = points[i];
+        std::uint32_t place = 0;
+        for (std::uint32_t& at : places)
+            at = at == none ? place++ : own + at; // of those that are forgotten it means nothing
+        points.resize(own);
+    }
+    points.reserve(points.size() + guests.size());
+    points.insert(points.end(), guests.begin(), guests.end());
+    free_room(guests);
+    return places;
+}
+
+/// Puts the point in place i in place numbers[i]; leaves out those that have none.
+void put_in_order(
+    const std::vector<std::uint32_t>& numbers,
+    std::uint32_t count,
+    std::vector<PackedPoint>& points) {
+    constexpr std::uint32_t none = PointNumbers::none;
+    std::vector<bool> is_moved(points.size());
+    for (std::uint32_t start = 0; start < points.size(); ++start) {
+        if (is_moved[start] || numbers[start] == none)
+            continue;
+        // What stands where a point belongs is taken along, and put where it belongs itself.
+        PackedPoint point = points[start];
+        std::uint32_t from = start;
+        while (true) {
+            is_moved[from] = true;
+            const std::uint32_t to = numbers[from];
+            std::swap(point, points[to]);
+            if (is_moved[to] || numbers[to] == none)
+                break;
+            from = to;
         }
-    });
-    return result;
+    }
+    points.resize(count);
 }
 
 /// Calls visit(list, i) for the pieces of both lists, by their edges.
@@ -70,30 +156,61 @@ void for_each_merged(const VisiblePieces& before, const VisiblePieces& found, co
 
 } // namespace
 
-VisiblePieces joined(std::vector<VisiblePieces> parts) {
-    std::vector<std::size_t> starts(parts.size() + 1); // of the parts' points
+VisiblePieces joined(std::vector<VisiblePieces> parts, std::size_t others) {
+    if (parts.size() == 1 && others == 0)
+        return std::move(parts.front());
+    const PartedPoints parted(parts);
     std::size_t pieces = 0;
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        starts[i + 1] = starts[i] + parts[i].points.size();
-        pieces += parts[i].pieces.size();
+    std::size_t unlit = 0;
+    for (const VisiblePieces& part : parts) {
+        pieces += part.pieces.size();
+        unlit += part.unlit.size();
     }
     VisiblePieces result;
     std::vector<std::uint32_t> numbers;
-    result.points = joined_points(parts, numbers);
-    result.pieces.reserve(pieces);
+    result.points = joined_points(parted, parts, numbers, [&](std::size_t points) {
+        return pieces == 0 ? 0 : points * others / pieces; // as many of a piece as here
+    });
+    result.pieces.reserve(pieces + others);
+    result.unlit.reserve(unlit == 0 ? 0 : unlit + others);
+    FreedBlocks freed;
     for (std::size_t i = 0; i < parts.size(); ++i) {
-        const VisiblePieces part = std::move(parts[i]);
-        const auto number = [&](std::uint32_t point) { return numbers[starts[i] + point]; };
+        VisiblePieces& part = parts[i];
+        const auto number = [&](std::uint32_t point) { return numbers[parted.start(i) + point]; };
         for (VisiblePiece piece : part.pieces) {
             piece.from = number(piece.from);
             piece.to = number(piece.to);
             result.pieces.push_back(piece);
         }
+        freed.free(part.pieces);
         result.unlit.insert(result.unlit.end(), part.unlit.begin(), part.unlit.end());
+        freed.free(part.unlit);
         result.penetrating.insert(
             result.penetrating.end(), part.penetrating.begin(), part.penetrating.end());
+        free_room(part.penetrating);
     }
     return result;
+}
+
+std::vector<VisiblePieces> parted(const VisiblePieces& list) {
+    constexpr std::size_t size = 4096; // pieces
+    const std::size_t count = list.pieces.size();
+    std::vector<VisiblePieces> parts((count + size - 1) / size);
+    parallel_ranges(parts.size(), 1, [&](std::size_t number, std::size_t) {
+        const auto piece_at = [&](std::size_t i) {
+            return list.pieces.begin() + static_cast<std::ptrdiff_t>(std::min(i, count));
+        };
+        VisiblePieces& part = parts[number];
+        part.pieces.assign(piece_at(number * size), piece_at((number + 1) * size));
+        std::vector<PackedPoint> points;
+        PointNumbers numbers(points, 2 * part.pieces.size());
+        for (VisiblePiece& piece : part.pieces) {
+            piece.from = numbers.number(list.points[piece.from]);
+            piece.to = numbers.number(list.points[piece.to]);
+        }
+        part.points.assign(points.begin(), points.end());
+    });
+    return parts;
 }
 
 void keep_pieces(const std::vector<std::uint8_t>& is_kept, VisiblePieces& list) {
@@ -135,42 +252,50 @@ VisiblePieces merged(VisiblePieces before, VisiblePieces found) {
     constexpr std::uint32_t none = PointNumbers::none;
     if (before.pieces.empty())
         return found;
-    // Points of both lists have common numbers first: those of the found ones, then the others.
-    const std::vector<std::uint32_t> common = numbers_behind(found.points, before.points);
-    const auto common_of = [&](const VisiblePieces& list, std::uint32_t point) {
-        return &list == &found ? point : common[point];
+    // All in the room of one of the lists: the guest's points go behind the host's.
+    VisiblePieces& host = before.pieces.size() < found.pieces.size() ? found : before;
+    VisiblePieces& guest = &host == &before ? found : before;
+    const std::size_t guests = guest.points.size();
+    const std::vector<std::uint32_t> places =
+        take_points_in(host.points, host.pieces, guest.points);
+    const std::size_t own = host.points.size() - guests;
+    const auto place_of = [&](const VisiblePieces& list, std::uint32_t point) {
+        return &list == &host ? places[point] : own + point;
     };
-    // Then the numbers in which the pieces have them, as if all had been followed.
-    std::vector<std::uint32_t> numbers(found.points.size() + before.points.size(), none);
+    // The numbers in which the pieces have them, as if all had been followed.
+    std::vector<std::uint32_t> numbers(host.points.size(), none);
     std::uint32_t points = 0;
-    std::size_t pieces = 0;
     for_each_merged(before, found, [&](const VisiblePieces& list, std::size_t i) {
-        ++pieces;
         for (const std::uint32_t point : {list.pieces[i].from, list.pieces[i].to})
-            if (std::uint32_t& number = numbers[common_of(list, point)]; number == none)
+            if (std::uint32_t& number = numbers[place_of(list, point)]; number == none)
                 number = points++;
     });
-    VisiblePieces result;
-    result.points.resize(points);
-    for (VisiblePieces* list : {&before, &found}) {
-        for (std::uint32_t i = 0; i < list->points.size(); ++i)
-            if (const std::uint32_t number = numbers[common_of(*list, i)]; number != none)
-                result.points[number] = list->points[i];
-        free_room(list->points);
-    }
-    const bool may_be_unlit = !before.unlit.empty() || !found.unlit.empty();
-    result.pieces.reserve(pieces);
-    result.unlit.reserve(may_be_unlit ? pieces : 0);
-    for_each_merged(before, found, [&](const VisiblePieces& list, std::size_t i) {
+    put_in_order(numbers, points, host.points);
+    // From behind, so that no piece of the host is written over before it is read.
+    std::size_t of_host = host.pieces.size();
+    std::size_t of_guest = guest.pieces.size();
+    const bool may_be_unlit = !host.unlit.empty() || !guest.unlit.empty();
+    grow_to(of_host + of_guest, host.pieces);
+    if (may_be_unlit)
+        grow_to(of_host + of_guest, host.unlit);
+    for (std::size_t at = host.pieces.size(); at-- > 0;) {
+        const bool is_of_guest = of_guest > 0
+            && (of_host == 0
+                || (&guest == &found
+                        ? !(guest.pieces[of_guest - 1].edge < host.pieces[of_host - 1].edge)
+                        : host.pieces[of_host - 1].edge < guest.pieces[of_guest - 1].edge));
+        const VisiblePieces& list = is_of_guest ? guest : host;
+        const std::size_t i = is_of_guest ? --of_guest : --of_host;
         VisiblePiece piece = list.pieces[i];
-        piece.from = numbers[common_of(list, piece.from)];
-        piece.to = numbers[common_of(list, piece.to)];
-        result.pieces.push_back(piece);
+        piece.from = numbers[place_of(list, piece.from)];
+        piece.to = numbers[place_of(list, piece.to)];
+        host.pieces[at] = piece;
         if (may_be_unlit)
-            result.unlit.push_back(list.unlit_beside(i));
-    });
-    result.penetrating = std::move(found.penetrating);
-    return result;
+            host.unlit[at] = list.unlit_beside(i);
+    }
+    if (&host != &found)
+        host.penetrating = std::move(found.penetrating);
+    return std::move(host);
 }
 
 } // namespace vera

@@ -11,6 +11,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <deque>
+#include <iterator>
 #include <limits>
 #include <numeric>
 #include <span>
@@ -24,25 +26,85 @@ namespace {
 /// What was seen beside each edge without shadows, for edges that come in ascending order.
 class SeenBefore {
 public:
-    SeenBefore(const ScreenScene& screen, const VisiblePieces& before)
+    SeenBefore(const ScreenScene& screen, const std::vector<VisiblePieces>& before)
         : screen_(screen)
-        , pieces_(before.pieces) {}
+        , before_(before) {}
 
     /// Calls visit(source) for each, perhaps more than once.
     template <typename Visit>
     void for_each_beside(ScreenEdges::Edge edge, const Visit& visit) {
-        while (next_ < pieces_.size() && pieces_[next_].edge < edge)
-            ++next_;
-        for (; next_ < pieces_.size() && pieces_[next_].edge == edge; ++next_)
-            for (const std::uint32_t triangle : {pieces_[next_].left, pieces_[next_].right})
-                if (triangle != no_triangle)
-                    visit(screen_.triangles[triangle].source);
+        for (; part_ < before_.size(); ++part_, next_ = 0) {
+            const std::vector<VisiblePiece>& pieces = before_[part_].pieces;
+            for (; next_ < pieces.size(); ++next_) {
+                const VisiblePiece& piece = pieces[next_];
+                if (edge < piece.edge)
+                    return;
+                if (piece.edge == edge)
+                    for (const std::uint32_t triangle : {piece.left, piece.right})
+                        if (triangle != no_triangle)
+                            visit(screen_.triangles[triangle].source);
+            }
+        }
     }
 
 private:
     const ScreenScene& screen_;
-    const std::vector<VisiblePiece>& pieces_;
-    std::size_t next_ = 0;
+    const std::vector<VisiblePieces>& before_;
+    std::size_t part_ = 0;
+    std::size_t next_ = 0; ///< of its pieces
+};
+
+/// What was seen without shadows, of which parts of the edges take what stays as it was.
+class TakenBefore {
+public:
+    explicit TakenBefore(std::vector<VisiblePieces>& before)
+        : before_(before) {}
+
+    /// Of edges that come in ascending order, the pieces of those that are not near a change; which
+    /// are forgotten with the others up to the last of these edges.
+    VisiblePieces
+    take(std::span<const ScreenEdges::Edge> edges, std::span<const std::uint8_t> is_near_change) {
+        std::vector<VisiblePieces> all;
+        std::vector<std::uint32_t> numbers; // of a part's points, among those that are taken
+        constexpr std::uint32_t none = ~std::uint32_t{0};
+        for (std::size_t edge = 0; part_ < before_.size() && !edges.empty();) {
+            VisiblePieces& part = before_[part_];
+            VisiblePieces taken;
+            numbers.assign(part.points.size(), none);
+            for (; next_ < part.pieces.size() && !(edges.back() < part.pieces[next_].edge);
+                 ++next_) {
+                VisiblePiece piece = part.pieces[next_];
+                while (edges[edge] < piece.edge)
+                    ++edge;
+                if (is_near_change[edge] != 0)
+                    continue;
+                for (std::uint32_t* point : {&piece.from, &piece.to}) {
+                    std::uint32_t& number = numbers[*point];
+                    if (number == none) {
+                        number = static_cast<std::uint32_t>(taken.points.size());
+                        taken.points.push_back(part.points[*point]);
+                    }
+                    *point = number;
+                }
+                taken.pieces.push_back(piece);
+            }
+            if (!taken.pieces.empty())
+                all.push_back(std::move(taken));
+            if (next_ < part.pieces.size())
+                break;
+            freed_.free(part.pieces);
+            freed_.free(part.points);
+            ++part_;
+            next_ = 0;
+        }
+        return joined(std::move(all));
+    }
+
+private:
+    std::vector<VisiblePieces>& before_;
+    FreedBlocks freed_;
+    std::size_t part_ = 0;
+    std::size_t next_ = 0; ///< of its pieces
 };
 
 /// The faces of which the shadows are there at a time. Where the same ones come back again and
@@ -112,7 +174,7 @@ std::size_t most_at_a_time(const ThrownShadows& thrown, std::size_t wanted) {
 /// Vertices of shadows between which pieces lie, light by light of one part of the faces after the
 /// other.
 struct KeptVertices {
-    std::vector<ScreenVertex> vertices;
+    std::deque<ScreenVertex> vertices;          // which has no room twice while it grows
     std::vector<std::vector<std::size_t>> ends; ///< of the parts, of each light, among these
 };
 
@@ -120,7 +182,8 @@ class ShadowedRaster {
 public:
     ShadowedRaster(
         ScreenScene& screen,
-        const VisiblePieces& before,
+        const std::vector<VisiblePieces>& before,
+        bool sees_others,
         const ThrownShadows& thrown,
         std::size_t at_a_time,
         const Progress& progress,
@@ -131,10 +194,10 @@ public:
         , cancel_(cancel)
         , triangles_(screen.triangles.size())
         , vertices_(screen.vertices.size())
-        , sees_others_(!before.penetrating.empty())
+        , sees_others_(sees_others)
         , most_(
               sees_others_ ? std::numeric_limits<std::size_t>::max()
-                           : most_at_a_time(thrown, std::max(at_a_time, triangles_ / 8)))
+                           : most_at_a_time(thrown, std::max(at_a_time, triangles_ / 16)))
         , raster_(raster_of(
               screen,
               [&](CellRaster& raster, const Cells& cells) { return asked_cells(raster, cells); },
@@ -143,16 +206,14 @@ public:
         , squares_(raster_.cells)
         , edges_(raster_.edges.edges.size()) {}
 
-    /// Takes the shadows, and the room for them, out of the screen.
-    ~ShadowedRaster() {
-        take_out();
-        screen_.triangles.shrink_to_fit();
-    }
+    /// Takes the shadows out of the screen.
+    ~ShadowedRaster() { take_out(); }
 
     ShadowedRaster(const ShadowedRaster&) = delete;
     ShadowedRaster& operator=(const ShadowedRaster&) = delete;
 
-    VisiblePieces follow_surfaces(VisiblePieces before, const Progress& progress);
+    std::vector<VisiblePieces>
+    follow_surfaces(std::vector<VisiblePieces> before, const Progress& progress);
     double expected_of_shadows();
     std::vector<VisiblePieces> follow_shadows(const Progress& progress);
 
@@ -175,7 +236,7 @@ private:
     }
 
     ScreenScene& screen_;
-    const VisiblePieces& before_;
+    const std::vector<VisiblePieces>& before_;
     const ThrownShadows& thrown_;
     const CancelFlag* cancel_;
     std::size_t triangles_; ///< surfaces
@@ -251,47 +312,56 @@ void ShadowedRaster::mark_near_shadows(std::size_t first, std::size_t last) {
     });
 }
 
-/// The borders of surfaces, in the shadows on both sides.
-VisiblePieces ShadowedRaster::follow_surfaces(VisiblePieces before, const Progress& progress) {
+/// The borders of surfaces, in the shadows on both sides, in parts. What was before is forgotten
+/// piece by piece.
+std::vector<VisiblePieces>
+ShadowedRaster::follow_surfaces(std::vector<VisiblePieces> before, const Progress& progress) {
     const LongLoop loop(edges_, progress, cancel_, 1);
     raster_.is_near_change.assign(edges_, 0);
-    before.unlit.clear();
-    std::vector<VisiblePieces> parts;
-    {
-        const EdgeTriangles edge_triangles = vera::edge_triangles(screen_, raster_.edges);
-        SeenBefore seen(screen_, before);
-        FaceBatch batch(thrown_, most_);
-        for (std::uint32_t face = 0; sees_others_ && face < thrown_.face_count(); ++face)
-            batch.add(face);
-        for (std::size_t first = 0, edge = 0; edge < edges_; ++edge) {
-            const auto number = static_cast<std::uint32_t>(edge);
-            if (raster_.hidden_eighths[edge] != all_eighths)
-                for (const std::uint32_t triangle : edge_triangles.of(number))
-                    batch.add(screen_.triangles[triangle].source);
-            seen.for_each_beside(
-                raster_.edges.edges[edge], [&](std::uint32_t source) { batch.add(source); });
-            if (edge + 1 < edges_ && !batch.is_full())
-                continue;
-            if (!batch.empty()) {
-                loop.turn(first);
-                add(batch.take());
-                mark_near_shadows(first, edge + 1);
-                follow_edges(raster_, first, edge + 1, {}, cancel_, parts);
-            }
-            first = edge + 1;
-        }
-        take_out();
-        made_ = batch.made();
-    }
-    keep_pieces(kept_pieces(raster_, before.pieces), before);
-    free_room(raster_.is_near_change);
     const auto unlit = [&](std::uint32_t triangle) {
         return triangle == no_triangle ? 0 : screen_.unlit_of(screen_.triangles[triangle].source);
     };
-    before.unlit.reserve(before.pieces.size());
-    for (const VisiblePiece& piece : before.pieces)
-        before.unlit.push_back({unlit(piece.left), unlit(piece.right)});
-    return merged(std::move(before), joined(std::move(parts)));
+    std::vector<VisiblePieces> parts;
+    const EdgeTriangles edge_triangles = vera::edge_triangles(screen_, raster_.edges);
+    SeenBefore seen(screen_, before);
+    TakenBefore taken(before);
+    FaceBatch batch(thrown_, most_);
+    for (std::uint32_t face = 0; sees_others_ && face < thrown_.face_count(); ++face)
+        batch.add(face);
+    for (std::size_t first = 0, edge = 0; edge < edges_; ++edge) {
+        const auto number = static_cast<std::uint32_t>(edge);
+        if (raster_.hidden_eighths[edge] != all_eighths)
+            for (const std::uint32_t triangle : edge_triangles.of(number))
+                batch.add(screen_.triangles[triangle].source);
+        seen.for_each_beside(
+            raster_.edges.edges[edge], [&](std::uint32_t source) { batch.add(source); });
+        if (edge + 1 < edges_ && !batch.is_full())
+            continue;
+        const std::size_t before_these = parts.size();
+        if (!batch.empty()) {
+            loop.turn(first);
+            add(batch.take());
+            mark_near_shadows(first, edge + 1);
+            follow_edges(raster_, first, edge + 1, {}, cancel_, parts);
+        }
+        VisiblePieces kept = taken.take(
+            std::span(raster_.edges.edges).subspan(first, edge + 1 - first),
+            std::span(raster_.is_near_change).subspan(first));
+        if (!kept.pieces.empty()) {
+            for (const VisiblePiece& piece : kept.pieces)
+                kept.unlit.push_back({unlit(piece.left), unlit(piece.right)});
+            const auto these = parts.begin() + static_cast<std::ptrdiff_t>(before_these);
+            VisiblePieces found =
+                joined({std::move_iterator(these), std::move_iterator(parts.end())});
+            parts.erase(these, parts.end());
+            parts.push_back(merged(std::move(kept), std::move(found)));
+        }
+        first = edge + 1;
+    }
+    take_out();
+    made_ = batch.made();
+    free_room(raster_.is_near_change);
+    return parts;
 }
 
 /// From the shadows on a few faces.
@@ -432,33 +502,46 @@ void renumber_edges(
 ShadowedPieces shadowed_cell_raster(
     ScreenScene& screen,
     VisiblePieces before,
-    const ThrownShadows& thrown,
+    ThrownShadows thrown,
     const Progress& progress,
     const CancelFlag* cancel,
     const ExpectPieces& expect,
     std::size_t at_a_time) {
     ShadowedPieces result;
     const std::size_t vertices = screen.vertices.size();
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> penetrating = before.penetrating;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> penetrating =
+        std::move(before.penetrating);
     std::vector<VisiblePieces> parts;
     KeptVertices kept;
     {
-        ShadowedRaster raster(screen, before, thrown, at_a_time, progress, cancel);
-        result.pieces =
-            raster.follow_surfaces(std::move(before), progress_between(progress, 0.2, 0.6));
-        const auto surfaces = static_cast<double>(result.pieces.pieces.size());
-        const double pieces = surfaces + raster.expected_of_shadows();
+        const ThrownShadows own = std::move(thrown);
+        std::vector<VisiblePieces> parts_before = parted(before);
+        free_room(before.points);
+        free_room(before.pieces);
+        ShadowedRaster raster(
+            screen, parts_before, !penetrating.empty(), own, at_a_time, progress, cancel);
+        parts =
+            raster.follow_surfaces(std::move(parts_before), progress_between(progress, 0.2, 0.6));
+        std::size_t surfaces = 0;
+        for (const VisiblePieces& part : parts)
+            surfaces += part.pieces.size();
+        const double of_shadows = raster.expected_of_shadows();
+        const double pieces = static_cast<double>(surfaces) + of_shadows;
         require_piece_memory(pieces);
         if (expect)
             expect(pieces);
+        result.pieces = joined(std::move(parts), static_cast<std::size_t>(of_shadows));
         parts = raster.follow_shadows(progress_between(progress, 0.6, 1));
         kept = raster.take_kept();
         result.shadows = raster.shadows();
         result.made = raster.made();
     }
+    screen.triangles.shrink_to_fit();
+    give_back_freed_memory();
     VisiblePieces of_shadows = joined(std::move(parts));
     renumber_edges(vertices, add_vertices(kept, screen), of_shadows);
-    free_room(kept.vertices);
+    kept.vertices = {};
+    give_back_freed_memory();
     for (const VisiblePieces* found : {&result.pieces, &of_shadows})
         penetrating.insert(penetrating.end(), found->penetrating.begin(), found->penetrating.end());
     sort_pairs(penetrating);

@@ -35,10 +35,10 @@ struct ShadowedPieces {
 ShadowedPieces shadowed_cell_raster(
     ScreenScene& screen,
     VisiblePieces before,
-    const ThrownShadows& thrown,
+    ThrownShadows thrown,
     const Progress& progress = {},
     const CancelFlag* cancel = nullptr,
     const ExpectPieces& expect = {},
-    std::size_t at_a_time = 16384);
+    std::size_t at_a_time = 8192);
 
 } // namespace vera

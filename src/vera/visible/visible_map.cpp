@@ -317,10 +317,11 @@ struct MapOrigin {
     ScreenScene* given_scene;
     const VisiblePieces& pieces;
     VisiblePieces* given_pieces;
+    std::vector<PackedPoint>* given_points;
 
     std::vector<PackedPoint> points() const {
-        if (given_pieces != nullptr)
-            return std::move(given_pieces->points);
+        if (given_points != nullptr)
+            return std::move(*given_points);
         return pieces.points;
     }
 
@@ -373,7 +374,20 @@ VisibleMap visible_map(
     const VisiblePieces& pieces,
     const Progress& progress,
     const CancelFlag* cancel) {
-    return made_map({scene, nullptr, pieces, nullptr}, RingDetail::with_across, progress, cancel);
+    return made_map(
+        {scene, nullptr, pieces, nullptr, nullptr}, RingDetail::with_across, progress, cancel);
+}
+
+VisibleMap visible_map_with_points_of(
+    VisiblePieces& pieces,
+    const ScreenScene& scene,
+    const Progress& progress,
+    const CancelFlag* cancel) {
+    return made_map(
+        {scene, nullptr, pieces, nullptr, &pieces.points},
+        RingDetail::with_across,
+        progress,
+        cancel);
 }
 
 VisibleMap visible_map(
@@ -384,7 +398,11 @@ VisibleMap visible_map(
     const CancelFlag* cancel) {
     ScreenScene own_scene = std::move(scene);
     VisiblePieces own_pieces = std::move(pieces);
-    return made_map({own_scene, &own_scene, own_pieces, &own_pieces}, detail, progress, cancel);
+    return made_map(
+        {own_scene, &own_scene, own_pieces, &own_pieces, &own_pieces.points},
+        detail,
+        progress,
+        cancel);
 }
 
 double doubled_area(const VisibleMap& map, const VisibleMap::Ring& ring) {

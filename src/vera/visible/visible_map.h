@@ -67,6 +67,13 @@ VisibleMap visible_map(
     const Progress& progress = {},
     const CancelFlag* cancel = nullptr);
 
+/// The same, but the pieces give their points away, which the map has for vertices.
+VisibleMap visible_map_with_points_of(
+    VisiblePieces& pieces,
+    const ScreenScene& scene,
+    const Progress& progress = {},
+    const CancelFlag* cancel = nullptr);
+
 /// Whether a map tells what is seen across its rings: where nobody asks, ring_across stays empty.
 enum class RingDetail : std::uint8_t { with_across, without_across };
 
