@@ -170,7 +170,8 @@ TEST(RenderParts, LightsAFacetThatSticksOutOfItsSurfaceAsTheSurfaceBesideIt) {
     const Scene& scene = maker.finish();
     const auto index = make_brute_force(scene);
     Facets all;
-    all.corners = {{0.1, -1, 0.05}, {0.1, 1, 0.05}, {-1, 0, 1}};
+    for (const Vec3 corner : {Vec3{0.1, -1, 0.05}, Vec3{0.1, 1, 0.05}, Vec3{-1, 0, 1}})
+        all.corners.push_back(corner);
     all.triangles = {{{0, 1, 2}, 0, 0, MaterialId{0}}};
     const std::vector<PixelPart> parts = {{0, 0, 0}};
     PictureSettings settings = plain_settings(1, 1);

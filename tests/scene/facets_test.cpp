@@ -4,10 +4,13 @@
 #include "vera/scene/facets.h"
 #include "vera/scene/surface.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <random>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "scene/make_scene.h"
 #include <gmock/gmock.h>
@@ -35,6 +38,13 @@ Vec3 doubled_area(const Facets& facets, const Facets::Triangle& triangle) {
     return cross(facets.corners[b] - facets.corners[a], facets.corners[c] - facets.corners[a]);
 }
 
+std::vector<Vec3> all_corners(const Facets& facets) {
+    std::vector<Vec3> all;
+    for (std::size_t i = 0; i < facets.corners.size(); ++i)
+        all.push_back(facets.corners[i]);
+    return all;
+}
+
 std::array<Vec3, 3> corners_of(const Facets& facets, std::size_t triangle) {
     const auto& [a, b, c] = facets.triangles[triangle].corners;
     return {facets.corners[a], facets.corners[b], facets.corners[c]};
@@ -49,8 +59,53 @@ const std::array<Vec3, 3> triangle_corners = {Vec3{0.1, 0, 1}, Vec3{1, 0, 1}, Ve
 TEST(Facets, OfNothingAreNone) {
     Scene scene;
     const Facets none = facets_of(scene);
-    EXPECT_TRUE(none.corners.empty());
+    EXPECT_EQ(none.corners.size(), 0U);
     EXPECT_TRUE(none.triangles.empty());
+}
+
+/// Few positions, of which several faces have each.
+Mesh some_mesh(std::mt19937& random) {
+    Mesh mesh;
+    std::uint32_t next = 0; // the position that no face has had
+    for (std::size_t i = 0; i < 3 * (1 + random() % 6); ++i) {
+        // Now and then one is left out.
+        const std::uint32_t position = static_cast<std::uint32_t>(random() % (next + 1));
+        mesh.position_indices.push_back(random() % 40 == 0 ? position + 1 : position);
+        next = std::max(next, mesh.position_indices.back() + 1);
+    }
+    for (std::uint32_t i = 0; i < next; ++i) {
+        const double x = random() % 3 == 0 ? -0.0 : i;
+        mesh.positions.push_back({x, static_cast<double>(random() % 3), 1});
+    }
+    return mesh;
+}
+
+TEST(Facets, ThatShareTheCornersOfAMeshAreTheSame) {
+    std::size_t in_order = 0;
+    std::size_t others = 0;
+    for (std::uint32_t seed = 0; seed < 200; ++seed) {
+        std::mt19937 random(seed);
+        Scene scene;
+        const std::size_t meshes = 1 + seed % 8 / 7;
+        for (std::size_t i = 0; i < meshes; ++i)
+            add(scene.geometry, some_mesh(random));
+        number_primitives(scene);
+        const Facets copied = facets(scene, everywhere(0.01));
+        const Facets shared = facets(scene, everywhere(0.01), nullptr, MeshCorners::shared);
+        ASSERT_EQ(shared.corners.size(), copied.corners.size()) << seed;
+        ASSERT_EQ(shared.triangles.size(), copied.triangles.size()) << seed;
+        for (std::size_t i = 0; i < copied.corners.size(); ++i) {
+            const Vec3 a = shared.corners[i];
+            const Vec3 b = copied.corners[i];
+            EXPECT_EQ(a, b) << seed;
+            EXPECT_EQ(std::signbit(a.x), std::signbit(b.x)) << seed;
+        }
+        for (std::size_t i = 0; i < copied.triangles.size(); ++i)
+            EXPECT_EQ(shared.triangles[i].corners, copied.triangles[i].corners) << seed;
+        ++(shared.corners.capacity() == 0 ? in_order : others);
+    }
+    EXPECT_GT(in_order, 50U);
+    EXPECT_GT(others, 20U);
 }
 
 TEST(Facets, OfATriangleAreItsCornersTurnedToTheOutside) {
@@ -65,7 +120,7 @@ TEST(Facets, OfATriangleAreItsCornersTurnedToTheOutside) {
         ASSERT_EQ(one.triangles.size(), 1U);
         EXPECT_EQ(normalized(doubled_area(one, one.triangles[0])), (Vec3{0, 0, z}));
         EXPECT_THAT(
-            one.corners,
+            all_corners(one),
             ElementsAre(triangle_corners[0], triangle_corners[1], triangle_corners[2]));
     }
 }
@@ -118,7 +173,7 @@ TEST(Facets, CoverAPolygonOfManyCorners) {
         scene.geometry.items[0].outside = outside;
         const Facets all = facets_of(scene);
         EXPECT_EQ(all.triangles.size(), 142U);
-        EXPECT_EQ(all.corners, star);
+        EXPECT_EQ(all_corners(all), star);
         const double side = outside == Outside::by_normal ? 1 : -1;
         double doubled = 0;
         for (const auto& triangle : all.triangles) {

@@ -174,8 +174,8 @@ TEST(DeviationInPixels, OfASurfaceCloseBeforeTheViewerCountsWhereItsFacetLiesBeh
         number_primitives(scene);
         const Facets all = facets(scene, deviation_in_pixels(map, 512, 512, 0.1, FacetReach::seen));
         double farthest = 0;
-        for (const Vec3& corner : all.corners)
-            farthest = std::max(farthest, dot(corner - camera.viewpoint, forward));
+        for (std::size_t i = 0; i < all.corners.size(); ++i)
+            farthest = std::max(farthest, dot(all.corners[i] - camera.viewpoint, forward));
         EXPECT_GT(farthest, 0.99) << "the wall is there";
     }
 }

@@ -91,9 +91,22 @@ TEST(PieceLists, PartsAreJoinedAsOneAfterTheOtherIsAdded) {
                 expected.penetrating.end(), part.penetrating.begin(), part.penetrating.end());
         }
         common += points - expected.points.size();
-        expect_same(joined(std::move(parts)), expected, seed);
+        expect_same(joined(std::move(parts), seed % 7), expected, seed);
     }
     EXPECT_GT(common, 1000U);
+}
+
+TEST(PieceLists, PartsOfAListAreTheListWhenTheyAreJoined) {
+    for (const std::uint32_t edges : {0U, 1U, 100U, 4096U, 9000U}) {
+        std::mt19937 random(edges);
+        VisiblePieces list = some_pieces(random, 0, edges, false);
+        list.penetrating.clear();
+        std::vector<VisiblePieces> parts = parted(list);
+        EXPECT_EQ(parts.size(), (list.pieces.size() + 4095) / 4096);
+        const VisiblePieces again = joined(std::move(parts), 100);
+        expect_same(again, list, edges);
+        EXPECT_GE(again.pieces.capacity(), list.pieces.size() + 100);
+    }
 }
 
 TEST(PieceLists, KeptAndFoundPiecesAreMergedAsAllByTheirEdges) {

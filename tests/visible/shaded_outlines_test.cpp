@@ -244,8 +244,8 @@ TEST(ShadedOutlines, AreWithinTheToleranceOnRandomFacesInRandomLight) {
         const LitWall wall = lit_wall(random);
         const CameraMap map(wall.camera);
         BorderRing corners;
-        for (const Vec3& corner : wall.all.corners) {
-            const ImagePoint seen = map.image_point(corner);
+        for (std::size_t i = 0; i < wall.all.corners.size(); ++i) {
+            const ImagePoint seen = map.image_point(wall.all.corners[i]);
             corners.push_back({200 * seen.x / seen.w, 200 - 200 * seen.y / seen.w});
         }
         LitOutline lit;

@@ -101,8 +101,8 @@ public:
             all_.triangles.push_back({{corners + a, corners + b, corners + c}});
             sources_.push_back(faces + drawn.faces.of_facet[i]);
         }
-        all_.corners.insert(
-            all_.corners.end(), drawn.facets.corners.begin(), drawn.facets.corners.end());
+        for (std::size_t i = 0; i < drawn.facets.corners.size(); ++i)
+            all_.corners.push_back(drawn.facets.corners[i]);
     }
 
     /// Whether the light reaches the place of the face; nothing where its view does not show it.

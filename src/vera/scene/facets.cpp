@@ -104,16 +104,21 @@ public:
         ++primitive_;
     }
 
+    /// Of a mesh that is all there is.
+    void share_corners(const Mesh& mesh) {
+        shares_corners_ = true;
+        facets_.corners.share(mesh.positions);
+    }
+
     Facets take() { return std::move(facets_); }
 
 private:
     static constexpr std::uint32_t no_corner = 0xffffffff;
 
-    /// Zeros are all made positive, so that equal corners have equal bits.
     std::uint32_t add_corner(Vec3 local) {
         if (facets_.corners.size() + 1 >= too_many)
             refuse(scene_);
-        facets_.corners.push_back(to_world(local) + Vec3{});
+        facets_.corners.push_back(to_world(local));
         return static_cast<std::uint32_t>(facets_.corners.size() - 1);
     }
 
@@ -179,8 +184,8 @@ private:
     }
 
     /// Room for so many more, and for twice as many as there are: many small meshes take no longer.
-    template <typename T>
-    static std::size_t room_for(const std::vector<T>& list, std::size_t more) {
+    template <typename List>
+    static std::size_t room_for(const List& list, std::size_t more) {
         return std::max(list.size() + more, 2 * list.size());
     }
 
@@ -191,14 +196,16 @@ private:
             require_room(room);
             facets_.triangles.reserve(room);
         }
-        const std::size_t corners = std::min(mesh.positions.size(), 3 * count);
+        const std::size_t corners =
+            shares_corners_ ? 0 : std::min(mesh.positions.size(), 3 * count);
         if (facets_.corners.size() + corners > facets_.corners.capacity())
             facets_.corners.reserve(room_for(facets_.corners, corners));
     }
 
     void add_mesh(const Mesh& mesh, Outside outside) {
         reserve_for(mesh);
-        mesh_corners_.assign(mesh.positions.size(), no_corner);
+        if (!shares_corners_)
+            mesh_corners_.assign(mesh.positions.size(), no_corner);
         const auto& normal_indices =
             mesh.normal_indices.empty() ? mesh.position_indices : mesh.normal_indices;
         const LongLoop loop(mesh.triangle_count(), {}, cancel_);
@@ -209,16 +216,20 @@ private:
             std::array<Vec3, 3> normals;
             for (std::size_t c = 0; c < 3; ++c) {
                 const std::uint32_t position = mesh.position_indices[first + c];
-                std::uint32_t& corner = mesh_corners_[position];
-                if (corner == no_corner)
-                    corner = add_corner(mesh.positions[position]);
-                corners[c] = corner;
+                corners[c] = shares_corners_ ? position : corner_of(mesh, position);
                 if (!mesh.normals.empty())
                     normals[c] = mesh.normals[normal_indices[first + c]];
             }
             add_triangle(corners, 0, patch_is_turned(corners_of(mesh, i), normals, outside));
             ++primitive_;
         }
+    }
+
+    std::uint32_t corner_of(const Mesh& mesh, std::uint32_t position) {
+        std::uint32_t& corner = mesh_corners_[position];
+        if (corner == no_corner)
+            corner = add_corner(mesh.positions[position]);
+        return corner;
     }
 
     template <typename Primitive>
@@ -247,7 +258,24 @@ private:
     std::uint64_t primitive_ = 0;
     std::vector<CornerTriple> triples_;
     std::vector<std::uint32_t> mesh_corners_; ///< of a mesh's positions
+    bool shares_corners_ = false;
 };
+
+/// The mesh that is all there is in the scene, if its faces take its positions in their order, as
+/// facets have their corners; or null.
+const Mesh* mesh_in_order(const Scene& scene) {
+    const Geometry& geometry = scene.geometry;
+    if (geometry.items.size() != 1 || geometry.items.front().kind != ItemKind::mesh)
+        return nullptr;
+    const Mesh& mesh = geometry.meshes[geometry.items.front().index];
+    std::size_t next = 0;
+    for (const std::uint32_t position : mesh.position_indices) {
+        if (position > next)
+            return nullptr;
+        next += position == next ? 1 : 0;
+    }
+    return next == mesh.positions.size() && next < too_many ? &mesh : nullptr;
+}
 
 /// The subscene as the call of the geometry that is being visited puts it.
 Visit called(const Scene& scene, const Visit& caller, const Item& item) {
@@ -264,11 +292,18 @@ Visit called(const Scene& scene, const Visit& caller, const Item& item) {
 
 } // namespace
 
-Facets facets(const Scene& scene, const Deviation& deviation, const CancelFlag* cancel) {
+Facets facets(
+    const Scene& scene,
+    const Deviation& deviation,
+    const CancelFlag* cancel,
+    MeshCorners mesh_corners) {
     // Almost every primitive has a facet: what is hopeless is told before it takes all memory.
     if (scene.geometry.primitive_count >= too_many)
         refuse(scene);
     FacetBuilder builder(scene, deviation, cancel);
+    if (mesh_corners == MeshCorners::shared)
+        if (const Mesh* mesh = mesh_in_order(scene))
+            builder.share_corners(*mesh);
 
     // A stack of our own: subscenes may nest to any depth.
     std::vector<Visit> stack(1);

@@ -58,9 +58,11 @@ locator_of(LocatorKind kind, const VisibleMap& map, const CancelFlag* cancel) {
 /// The facets as seen from the center. Not by a camera that stands there: the corners of its
 /// picture would be rounded with the coordinates of the scene.
 Facets moved_to_origin(const Facets& facets, Vec3 center) {
-    Facets moved = facets;
-    for (Vec3& corner : moved.corners)
-        corner = corner - center;
+    Facets moved;
+    moved.corners.reserve(facets.corners.size());
+    for (std::size_t i = 0; i < facets.corners.size(); ++i)
+        moved.corners.push_back(facets.corners[i] - center);
+    moved.triangles = facets.triangles;
     return moved;
 }
 

@@ -68,7 +68,8 @@ Facets facets_of_polygons() {
     for (std::size_t i = 0; i < polygons().size(); ++i) {
         const auto first = static_cast<std::uint32_t>(facets.corners.size());
         const std::vector<Vec3>& corners = polygons()[i].corners;
-        facets.corners.insert(facets.corners.end(), corners.begin(), corners.end());
+        for (const Vec3& corner : corners)
+            facets.corners.push_back(corner);
         for (std::uint32_t k = 2; k < corners.size(); ++k) {
             Facets::Triangle triangle;
             triangle.corners = {first, first + k - 1, first + k};

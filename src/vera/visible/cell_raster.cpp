@@ -125,7 +125,11 @@ VisiblePieces cell_raster(
         if (counts != nullptr)
             *counts = counted;
     }
-    VisiblePieces result = joined(std::move(parts));
+    // What penetrates is cut, and of each there are more then, in room that is taken once.
+    std::size_t pairs = 0;
+    for (const VisiblePieces& part : parts)
+        pairs += part.penetrating.size();
+    VisiblePieces result = joined(std::move(parts), pairs);
     sort_pairs(result.penetrating);
     return result;
 }

@@ -154,7 +154,12 @@ SeenScene seen_scene(Request& request) {
         picture.height,
         request.settings.deviation,
         throws_shadows ? FacetReach::throwing : FacetReach::seen);
-    seen.facets = facets(request.scene, deviation, request.cancel);
+    // In style ids the scene may be gone before the facets.
+    seen.facets = facets(
+        request.scene,
+        deviation,
+        request.cancel,
+        request.is_in_numbers() ? MeshCorners::copied : MeshCorners::shared);
     seen.facet_count = seen.facets.triangles.size();
     seen.curved_part = curved_part_of(seen.facets);
     if (request.is_in_numbers())
@@ -260,6 +265,7 @@ Drawing painted(Request& request, SeenScene& seen, VisibleMap map) {
             numbered_areas(std::move(map), seen.primitives, request.picture, request.cancel);
         return drawing;
     }
+    give_back_freed_memory();
     const auto kept = std::make_shared<KeptForDrawing>(KeptForDrawing{
         request.camera_map, std::move(seen.facets), std::move(seen.faces), std::move(map)});
     const MapSources sources = {

@@ -96,7 +96,7 @@ StyleBytes bytes_of(DrawingStyle style, FaceOutlines outlines) {
         return {.piece = 440, .surface = 530, .curved_surface = 150};
     case DrawingStyle::toon:
         if (are_later)
-            return {.piece = 200, .region = 700};
+            return {.piece = 205, .region = 655};
         return {
             .piece = 330, .curved_piece = 100, .region = 730, .curved_region = 540, .surface = 70};
     }

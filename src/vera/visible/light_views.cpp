@@ -87,8 +87,8 @@ LightViews light_views(
     // About the light, so that what is narrow or far away keeps its digits.
     Facets moved;
     moved.corners.reserve(facets.corners.size());
-    for (const Vec3& corner : facets.corners)
-        moved.corners.push_back(corner - position);
+    for (std::size_t i = 0; i < facets.corners.size(); ++i)
+        moved.corners.push_back(facets.corners[i] - position);
     moved.triangles.reserve(looked_at.size());
     for (const std::uint32_t facet : looked_at)
         moved.triangles.push_back(facets.triangles[facet]);
@@ -99,7 +99,7 @@ LightViews light_views(
         view.screen = screen_scene(
             moved, CameraMap(frames[i].camera), looked_at, 1.001 * frames[i].farthest, cancel);
         if (i + 1 == frames.size()) {
-            free_room(moved.corners);
+            moved.corners = {};
             free_room(moved.triangles);
         }
         if (view.screen.triangles.empty())

@@ -26,12 +26,20 @@ public:
         for (std::size_t i = 1; i < starts_.size(); ++i)
             starts_[i] += starts_[i - 1];
         at_vertex_.resize(starts_.back());
+        numbers_.reserve(starts_.back() / 2);
         std::vector<std::uint32_t> next(starts_.begin(), starts_.end() - 1);
         for_each_end(
             [&](std::uint32_t vertex, std::uint32_t part) { at_vertex_[next[vertex]++] = part; });
         for (std::uint32_t i = 0; i < parts.size(); ++i)
             if (parts[i].line_class == line_class)
                 numbers_.push_back(i);
+    }
+
+    std::size_t count() {
+        std::size_t count = 0;
+        for_each([&](const LineChain&) { ++count; });
+        std::fill(is_done_.begin(), is_done_.end(), std::uint8_t{0});
+        return count;
     }
 
     /// Open chains from their ends on, then what is left: closed ones.
@@ -104,8 +112,12 @@ void for_each_line_chain(
     std::span<const LinePart> parts,
     LineClass line_class,
     std::size_t point_count,
-    const std::function<void(LineChain chain)>& visit) {
-    Chains(parts, line_class, point_count).for_each(visit);
+    const std::function<void(LineChain chain)>& visit,
+    const std::function<void(std::size_t count)>& expect) {
+    Chains chains(parts, line_class, point_count);
+    if (expect)
+        expect(chains.count());
+    chains.for_each(visit);
 }
 
 } // namespace vera

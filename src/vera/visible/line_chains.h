@@ -50,11 +50,13 @@ struct LineChain {
 
 /// Calls visit(chain) for the parts of one class as chains, each part in one: open ones first.
 /// Where more than two end at a point, those go on in each other that lie on one curve, or in one
-/// straight line. Only points below point_count are used.
+/// straight line. Only points below point_count are used. Calls expect(count) before, if it is
+/// given: so many chains there will be.
 void for_each_line_chain(
     std::span<const LinePart> parts,
     LineClass line_class,
     std::size_t point_count,
-    const std::function<void(LineChain chain)>& visit);
+    const std::function<void(LineChain chain)>& visit,
+    const std::function<void(std::size_t count)>& expect = {});
 
 } // namespace vera

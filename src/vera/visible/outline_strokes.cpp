@@ -192,12 +192,16 @@ double tolerance(const StrokeSources& sources) {
 }
 
 OutlineCurves curves_of(const StrokeSources& sources, const std::vector<LinePart>& parts) {
-    std::vector<std::uint64_t> primitives;
+    std::vector<std::uint8_t> has_lines(sources.faces.first_facet.size());
     for (const LinePart& part : parts)
         for (const std::uint32_t face : part.faces)
             if (face != no_source)
-                primitives.push_back(
-                    sources.facets.triangles[sources.faces.first_facet[face]].primitive);
+                has_lines[face] = 1;
+    std::vector<std::uint64_t> primitives;
+    for (std::size_t face = 0; face < has_lines.size(); ++face)
+        if (has_lines[face] != 0)
+            primitives.push_back(
+                sources.facets.triangles[sources.faces.first_facet[face]].primitive);
     std::sort(primitives.begin(), primitives.end());
     primitives.erase(std::unique(primitives.begin(), primitives.end()), primitives.end());
     return {sources.scene, sources.camera_map, sources.picture, primitives};
@@ -446,10 +450,15 @@ void add_strokes(
         const auto line_class = static_cast<LineClass>(i);
         if (of_classes)
             of_classes(static_cast<double>(i) / static_cast<double>(line_class_names.size()));
-        for_each_line_chain(lines.parts, line_class, places.size(), [&](LineChain chain) {
-            stop_if_raised(cancel);
-            drawing.strokes.push_back(maker.stroke(line_class, std::move(chain)));
-        });
+        for_each_line_chain(
+            lines.parts,
+            line_class,
+            places.size(),
+            [&](LineChain chain) {
+                stop_if_raised(cancel);
+                drawing.strokes.push_back(maker.stroke(line_class, std::move(chain)));
+            },
+            [&](std::size_t count) { drawing.strokes.reserve(drawing.strokes.size() + count); });
     }
 }
 

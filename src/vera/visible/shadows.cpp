@@ -131,8 +131,8 @@ std::vector<std::vector<LightFrame>> frames_of_lights(
     std::span<const Vec3> positions,
     const CancelFlag* cancel) {
     Box3 all;
-    for (const Vec3& corner : shadowed.facets.corners)
-        all = grown(all, corner);
+    for (std::size_t i = 0; i < shadowed.facets.corners.size(); ++i)
+        all = grown(all, shadowed.facets.corners[i]);
     Box3 box;
     for_each_seen(shadowed, screen, all, cancel, [&](const SeenSegment& segment) {
         for (const Vec3& end : segment.ends)
