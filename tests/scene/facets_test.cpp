@@ -67,7 +67,8 @@ TEST(Facets, OfNothingAreNone) {
 Mesh some_mesh(std::mt19937& random) {
     Mesh mesh;
     std::uint32_t next = 0; // the position that no face has had
-    for (std::size_t i = 0; i < 3 * (1 + random() % 6); ++i) {
+    const std::size_t corners = 3 * (1 + random() % 6);
+    for (std::size_t i = 0; i < corners; ++i) {
         // Now and then one is left out.
         const std::uint32_t position = static_cast<std::uint32_t>(random() % (next + 1));
         mesh.position_indices.push_back(random() % 40 == 0 ? position + 1 : position);

@@ -196,8 +196,9 @@ private:
             require_room(room);
             facets_.triangles.reserve(room);
         }
-        const std::size_t corners =
-            shares_corners_ ? 0 : std::min(mesh.positions.size(), 3 * count);
+        if (shares_corners_)
+            return;
+        const std::size_t corners = std::min(mesh.positions.size(), 3 * count);
         if (facets_.corners.size() + corners > facets_.corners.capacity())
             facets_.corners.reserve(room_for(facets_.corners, corners));
     }

@@ -18,7 +18,7 @@ class FreedBlocks {
 public:
     template <typename T>
     void free(std::vector<T>& vector) {
-        constexpr std::size_t much = std::size_t{4} << 20U;
+        constexpr std::size_t much = std::size_t{6} << 20U;
         bytes_ += vector.capacity() * sizeof(T);
         free_room(vector);
         if (bytes_ < much)
