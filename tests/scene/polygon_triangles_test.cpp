@@ -217,7 +217,7 @@ TEST(SplitPolygon, CoversACombOfManyTeethOnce) {
 /// behind it are gone. Going round for each of them takes minutes.
 TEST(SplitPolygon, DropsASpikeThatWindsASpiralInItsStride) {
     std::vector<Vec3> corners;
-    constexpr int turns = 150'000;
+    constexpr int turns = 50'000;
     Vec3 at;
     for (int i = 0; i < turns; ++i) {
         corners.push_back(at);

@@ -96,5 +96,34 @@ TEST(Cells, AreBlockedByNothingNearerThanWhatCoversThem) {
     EXPECT_GT(blocked, 200U);
 }
 
+/// Squares each on a larger one, as slices of a pyramid: no one triangle covers a cell on their
+/// diagonals. Each square's border lies in a few cells alone.
+TEST(Cells, HoldOfSlicesOneOnAnotherOnlyThoseThatAreSeen) {
+    for (const std::int32_t count : {250, 1000, 4000}) {
+        ScreenScene scene;
+        for (std::int32_t i = 0; i < count; ++i) {
+            const auto first = static_cast<std::uint32_t>(scene.vertices.size());
+            const std::int32_t low = screen_size / 2 / (count + 1) * (i + 1);
+            const std::int32_t high = screen_size - low;
+            for (const ScreenPoint point :
+                 {ScreenPoint{low, low}, {high, low}, {high, high}, {low, high}})
+                scene.vertices.push_back({point, depth_size / 2 + 1000 * i});
+            const auto source = static_cast<std::uint32_t>(i);
+            add_triangle(scene, {first, first + 1, first + 2}, source);
+            add_triangle(scene, {first, first + 2, first + 3}, source);
+        }
+        const std::vector<NearnessSlope> slopes = slopes_of(scene);
+        const ScreenEdges edges = screen_edges(scene);
+        const std::vector<EdgeNeighbours> neighbours = edge_neighbours(scene, edges);
+        const SheetScene sheets = {scene, edges, neighbours, slopes};
+        Cells cells = cells_of(scene, slopes, nullptr, {}, &sheets);
+        block_by_sheets(cells, sheets);
+        std::size_t longest = 0;
+        for (std::size_t cell = 0; cell < cells.blocked.size(); ++cell)
+            longest = std::max(longest, cells.triangles_of(cell).size());
+        EXPECT_LE(longest, 300U) << count;
+    }
+}
+
 } // namespace
 } // namespace vera

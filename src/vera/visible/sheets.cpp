@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <numeric>
 #include <vector>
@@ -36,6 +37,12 @@ bool do_meet(const Square& square, ScreenPoint a, ScreenPoint b) {
         ScreenBox{{square.low.x, square.high.x}, {square.low.y, square.high.y}}, std::array{a, b});
 }
 
+double nearest_of(const SheetScene& sheets, std::uint32_t triangle) {
+    const auto corners = corners_of(sheets.scene, sheets.scene.triangles[triangle]);
+    return nearest_for_hiding(
+        sheets.slopes[triangle], std::array{corners[0].point, corners[1].point, corners[2].point});
+}
+
 /// Joins the triangles of one cell to sheets; kept from cell to cell.
 class SheetsOfCell {
 public:
@@ -45,6 +52,10 @@ public:
     /// How near the nearest sheet is that covers the cell, less what may be amiss; -1: there is
     /// none.
     double blocked(std::span<const std::uint32_t> triangles, const Square& square);
+
+    /// Of the triangles the nearest, in ascending order, as long as nothing else is asked.
+    std::span<const std::uint32_t>
+    nearest(std::span<const std::uint32_t> triangles, std::size_t count);
 
 private:
     std::uint32_t root(std::uint32_t i) {
@@ -61,6 +72,8 @@ private:
     std::vector<std::uint32_t> parent_;
     std::vector<std::uint8_t> ends_here_; ///< whether the sheet has a border in the cell
     std::vector<double> least_;           ///< of the sheet at its root
+    std::vector<std::pair<double, std::uint32_t>> by_nearness_;
+    std::vector<std::uint32_t> nearest_;
 };
 
 /// Joins the triangle to those beyond its sides in the cell.
@@ -137,10 +150,19 @@ double SheetsOfCell::blocked(std::span<const std::uint32_t> triangles, const Squ
     return blocked;
 }
 
-double nearest_of(const SheetScene& sheets, std::uint32_t triangle) {
-    const auto corners = corners_of(sheets.scene, sheets.scene.triangles[triangle]);
-    return nearest_for_hiding(
-        sheets.slopes[triangle], std::array{corners[0].point, corners[1].point, corners[2].point});
+std::span<const std::uint32_t>
+SheetsOfCell::nearest(std::span<const std::uint32_t> triangles, std::size_t count) {
+    by_nearness_.clear();
+    for (const std::uint32_t i : triangles)
+        by_nearness_.emplace_back(-nearest_of(sheets_, i), i);
+    const auto last = by_nearness_.begin() + static_cast<std::ptrdiff_t>(count);
+    std::nth_element(by_nearness_.begin(), last, by_nearness_.end());
+    nearest_.clear();
+    std::transform(by_nearness_.begin(), last, std::back_inserter(nearest_), [](const auto& near) {
+        return near.second;
+    });
+    std::sort(nearest_.begin(), nearest_.end());
+    return nearest_;
 }
 
 /// Which triangles hang together with another.
@@ -155,7 +177,8 @@ std::vector<std::uint8_t> joined_triangles(const SheetScene& sheets) {
 } // namespace
 
 void block_by_sheets(Cells& cells, const SheetScene& sheets, const CancelFlag* cancel) {
-    // In longer lists there is hardly a cell without a border, and joining takes long.
+    // Of longer lists, in which joining takes long, the nearest: among the others there is hardly a
+    // sheet without a border that hides something that these do not.
     constexpr std::size_t longest = 256;
     const std::vector<std::uint8_t> joined = joined_triangles(sheets);
     if (std::find(joined.begin(), joined.end(), 1) == joined.end())
@@ -163,7 +186,7 @@ void block_by_sheets(Cells& cells, const SheetScene& sheets, const CancelFlag* c
     std::vector<std::uint32_t> ends(cells.starts.begin() + 1, cells.starts.end());
     const auto block = [&](std::size_t cell, SheetsOfCell& sheets_of_cell) {
         const auto triangles = cells.triangles_of(cell);
-        if (triangles.size() < 2 || triangles.size() > longest
+        if (triangles.size() < 2
             || std::none_of(triangles.begin(), triangles.end(), [&](std::uint32_t i) {
                    return joined[i] != 0;
                }))
@@ -173,8 +196,9 @@ void block_by_sheets(Cells& cells, const SheetScene& sheets, const CancelFlag* c
             static_cast<std::int32_t>(cell % per_side) << cells.shift,
             static_cast<std::int32_t>(cell / per_side) << cells.shift};
         const std::int32_t size = std::int32_t{1} << cells.shift;
-        const double blocked =
-            sheets_of_cell.blocked(triangles, {low, {low.x + size, low.y + size}});
+        const double blocked = sheets_of_cell.blocked(
+            triangles.size() > longest ? sheets_of_cell.nearest(triangles, longest) : triangles,
+            {low, {low.x + size, low.y + size}});
         if (blocked <= cells.blocked[cell] || cells.hides_nothing_in(cell))
             return;
         cells.blocked[cell] = blocked;
