@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "vera/base/random.h"
 #include "vera/visible/open_points.h"
 #include "vera/visible/penetrations.h"
 #include "vera/visible/visible_map.h"
@@ -95,6 +96,67 @@ TEST(OpenPoints, AreThoseAtWhichWaysEnd) {
         EXPECT_TRUE(open_points(scene, pieces, length).empty());
         EXPECT_EQ(open_points(scene, pieces, 0.5 * length).size(), 2U);
     }
+}
+
+/// Where many pieces are gone, as told by comparing each open point with each other one.
+TEST(OpenPoints, AreLeftWhereGroupsWithinReachDoNotClose) {
+    std::mt19937_64 random(16);
+    std::size_t left = 0;
+    std::size_t closed = 0;
+    for (std::uint64_t seed = 0; seed < 60; ++seed) {
+        const ScreenScene scene = layers(seed, 4 + seed % 20, std::int32_t{1} << (2 + seed % 4));
+        VisiblePieces pieces = cell_raster(scene);
+        std::erase_if(pieces.pieces, [&](const VisiblePiece&) { return random() % 4 == 0; });
+        const auto source = [&](std::uint32_t triangle) {
+            return scrambled_bits(
+                triangle == no_triangle ? no_source : scene.triangles[triangle].source);
+        };
+        std::vector<std::uint64_t> sums(pieces.points.size());
+        for (const VisiblePiece& piece : pieces.pieces) {
+            sums[piece.from] += source(piece.left) - source(piece.right);
+            sums[piece.to] -= source(piece.left) - source(piece.right);
+        }
+        std::vector<std::size_t> open;
+        for (std::size_t i = 0; i < sums.size(); ++i)
+            if (sums[i] != 0)
+                open.push_back(i);
+        for (const double reach : {0.0, 3.0, screen_size / 64.0, screen_size / 8.0}) {
+            // A point has the least number of those that it is joined to.
+            std::vector<std::size_t> group(open.size());
+            for (std::size_t i = 0; i < group.size(); ++i)
+                group[i] = i;
+            for (bool changes = true; changes;) {
+                changes = false;
+                for (std::size_t i = 0; i < open.size(); ++i)
+                    for (std::size_t j = 0; j < open.size(); ++j) {
+                        const PackedPoint& a = pieces.points[open[i]];
+                        const PackedPoint& b = pieces.points[open[j]];
+                        if (group[j] < group[i] && std::abs(a.x() - b.x()) <= reach
+                            && std::abs(a.y() - b.y()) <= reach) {
+                            group[i] = group[j];
+                            changes = true;
+                        }
+                    }
+            }
+            std::vector<std::uint64_t> sum_of(open.size());
+            for (std::size_t i = 0; i < open.size(); ++i)
+                sum_of[group[i]] += sums[open[i]];
+            std::vector<std::pair<double, double>> expected;
+            for (std::size_t i = 0; i < open.size(); ++i)
+                if (sum_of[group[i]] != 0)
+                    expected.emplace_back(pieces.points[open[i]].x(), pieces.points[open[i]].y());
+            std::vector<std::pair<double, double>> found;
+            for (const PackedPoint& point : open_points(scene, pieces, reach))
+                found.emplace_back(point.x(), point.y());
+            std::sort(expected.begin(), expected.end());
+            std::sort(found.begin(), found.end());
+            EXPECT_TRUE(found == expected) << "seed " << seed << " reach " << reach;
+            left += found.size();
+            closed += open.size() - found.size();
+        }
+    }
+    EXPECT_GT(left, 1000U);
+    EXPECT_GT(closed, 100U);
 }
 
 /// Where the order of triangles goes round nowhere, what is hidden makes no difference.
