@@ -98,8 +98,7 @@ private:
     void find_reaches(const IsAsked& is_asked);
     void block(Cells& cells) const;
     void block_by_large_sheets(Cells& cells) const;
-    template <typename DoesMatter>
-    bool block_by_sheets_of(Cells& cells, const DoesMatter& does_matter) const;
+    bool block_by_sheets_of(const std::vector<std::uint8_t>& matter, Cells& cells) const;
     void unblock(Cells& cells) const;
     void leave_out_hidden(const Cells& cells);
     std::uint64_t count(Cells& cells);
@@ -285,8 +284,7 @@ void CellLists::block_by_large_sheets(Cells& cells) const {
                 ? 1
                 : 0;
     });
-    if (std::ranges::find(is_large, 1) == is_large.end()
-        || block_by_sheets_of(cells, [&](std::size_t i) { return is_large[i] != 0; }))
+    if (std::ranges::find(is_large, 1) == is_large.end() || block_by_sheets_of(is_large, cells))
         return;
     // So many lie one behind the other that their lists would be too long: the nearest ones first,
     // behind which most of the others are hidden.
@@ -297,34 +295,34 @@ void CellLists::block_by_large_sheets(Cells& cells) const {
     std::sort(nearest_first.begin(), nearest_first.end(), [&](std::uint32_t a, std::uint32_t b) {
         return nearness_[a] != nearness_[b] ? nearness_[a] > nearness_[b] : a < b;
     });
-    std::fill(is_large.begin(), is_large.end(), 0);
+    std::vector<std::uint8_t> matter(is_large.size());
     std::size_t count = 64;
     for (std::size_t first = 0; first < nearest_first.size(); first += count, count *= 2) {
         const std::size_t last = std::min(first + count, nearest_first.size());
         const auto next = std::span(nearest_first).subspan(first, last - first);
         for (const std::uint32_t i : next)
-            is_large[i] = 1;
-        block_by_sheets_of(cells, [&](std::size_t i) { return is_large[i] != 0; });
+            matter[i] = 1;
+        block_by_sheets_of(matter, cells);
         for (const std::uint32_t i : next)
-            is_large[i] = 0;
+            matter[i] = 0;
     }
 }
 
-/// By the sheets of triangles of which does_matter(number) is true; false where their lists would
-/// be too long.
-template <typename DoesMatter>
-bool CellLists::block_by_sheets_of(Cells& cells, const DoesMatter& does_matter) const {
-    const auto matters = [&](std::size_t i, const auto&) { return does_matter(i); };
+/// By the sheets of the triangles that matter; false, and by none, where their lists would be too
+/// long.
+bool CellLists::block_by_sheets_of(const std::vector<std::uint8_t>& matter, Cells& cells) const {
+    const auto does_matter = [&](std::size_t i, const auto&) { return matter[i] != 0; };
     Cells some = {cells.shift, cells.per_side, {}, {}, std::move(cells.blocked), {}};
-    const bool are_few = count_entries(some, matters) <= most_entries();
+    const bool are_few = count_entries(some, does_matter) <= most_entries();
     if (are_few) {
-        fill_lists(some, matters);
+        fill_lists(some, does_matter);
         block_by_sheets(some, *sheets_, cancel_);
     }
     cells.blocked = std::move(some.blocked);
     return are_few;
 }
 
+/// The cells that are asked for with what is hidden there.
 void CellLists::unblock(Cells& cells) const {
     if (std::ranges::find(asked_cells_, asked_with_hidden) == asked_cells_.end())
         return;

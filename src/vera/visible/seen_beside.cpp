@@ -27,7 +27,10 @@ std::uint32_t SeenBeside::foremost_on(std::uint8_t side) const {
     return foremost;
 }
 
+/// What nothing surely hides; what is asked among all, as find_front_among_all().
 void SeenBeside::find_front(std::uint8_t side, Front& front) {
+    if (hiding_ == Hiding::by_nothing)
+        return find_front_among_all(side, front);
     front.clear();
     const std::uint32_t foremost = foremost_on(side);
     for (std::uint32_t i = 0; i < candidates_.size(); ++i)
@@ -234,10 +237,8 @@ SeenBeside::Seen SeenBeside::find(
                            });
     if (is_hidden && !asks_always)
         return {nothing, nothing, foremost_};
-    const auto find_front_on =
-        hiding_ == Hiding::by_nothing ? &SeenBeside::find_front_among_all : &SeenBeside::find_front;
-    (this->*find_front_on)(left_side, fronts_[0]);
-    (this->*find_front_on)(right_side, fronts_[1]);
+    find_front(left_side, fronts_[0]);
+    find_front(right_side, fronts_[1]);
     if (!asks_always && !has_one_sided(fronts_[0]) && !has_one_sided(fronts_[1]))
         return {};
     penetrating_ = &penetrating;
