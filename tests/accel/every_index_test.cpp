@@ -74,6 +74,24 @@ TEST_P(EveryIndex, AgreesWithBruteForceOnEveryBit) {
     }
 }
 
+TEST_P(EveryIndex, AgreesWithBruteForceOnWhatIsSmallBesideWhatIsHuge) {
+    for (std::uint64_t seed = 0; seed < 12; ++seed) {
+        RandomSceneSettings settings;
+        settings.items = 4 + 4 * seed;
+        settings.scale = std::ldexp(1.0, -3 * static_cast<int>(seed));
+        Scene scene = random_scene(seed, settings);
+        const auto triangle = static_cast<std::uint32_t>(scene.geometry.triangles.size());
+        const double below = -settings.scale;
+        scene.geometry.triangles.push_back({{Vec3{-9, below, -9}, {9, below, -9}, {0, below, 9}}});
+        scene.geometry.items.push_back({.kind = ItemKind::triangle, .index = triangle});
+        number_primitives(scene);
+        expect_like_brute_force(
+            scene, *make(scene), mixed_rays(seed, settings.scale), "seed " + std::to_string(seed));
+        if (HasFailure())
+            return;
+    }
+}
+
 TEST_P(EveryIndex, GivesTheSameBitsWithEveryInstructionSet) {
     RandomSceneSettings settings;
     settings.items = 60;

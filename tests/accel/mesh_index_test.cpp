@@ -39,6 +39,7 @@ using testing::rays_of_lights;
 using testing::rough_sphere;
 using testing::SampleMesh;
 using testing::scaled_and_shifted;
+using testing::small_triangles_beside_large;
 using testing::sphere;
 using testing::told;
 using testing::with_broken_vertices;
@@ -128,6 +129,10 @@ INSTANTIATE_TEST_SUITE_P(
         MeshFamily{"ManyTriangles", 2, [](auto seed) { return random_mesh(seed, 1000); }},
         MeshFamily{"CloseLayers", 12, [](auto seed) { return close_layers(seed, 2 + 3 * seed); }},
         MeshFamily{"MixedSizes", 12, [](auto seed) { return mixed_sizes(seed, 10 * seed); }},
+        MeshFamily{
+            "SmallBesideLarge",
+            12,
+            [](auto seed) { return small_triangles_beside_large(seed, 10 * seed); }},
         MeshFamily{
             "BrokenVertices",
             6,
@@ -365,6 +370,33 @@ TEST(MeshIndex, IsNotSlowedDownByWhatItLeavesOut) {
         EXPECT_EQ(after.nodes, before.nodes) << factor;
         EXPECT_EQ(after.triangles, before.triangles) << factor;
         EXPECT_GT(before.triangles, 0U) << factor;
+    }
+}
+
+TEST(MeshIndex, FindsWhatIsSmallBesideWhatIsHugeInNoMoreSteps) {
+    SampleMesh mesh = rough_sphere(5, 1);
+    std::vector<MeshRay> rays;
+    for (int i = 0; i < 512; ++i) {
+        const auto side = static_cast<float>(i % 16) / 16;
+        const auto up = static_cast<float>(i / 16) / 32;
+        rays.push_back({.origin = {3, 0.25F, 0.5F}, .direction = {-3, side - 0.75F, up - 1}});
+    }
+    const auto counted = [&] {
+        const MeshIndex index(mesh.spans());
+        MeshQueryCounts counts;
+        std::vector<MeshHit> hits(rays.size());
+        index.nearest_hits(rays, hits, &counts);
+        std::vector<std::uint8_t> met(rays.size());
+        index.meet_any(rays, met, &counts);
+        return counts;
+    };
+    const MeshQueryCounts before = counted();
+    for (const float huge : {1e5F, 1e9F}) {
+        mesh.add_triangle({-huge, -huge, -1}, {huge, -huge, -1}, {0, huge, -1});
+        const MeshQueryCounts after = counted();
+        EXPECT_LT(static_cast<double>(after.nodes), 1.1 * static_cast<double>(before.nodes));
+        EXPECT_LT(
+            static_cast<double>(after.triangles), 1.1 * static_cast<double>(before.triangles));
     }
 }
 

@@ -248,6 +248,23 @@ SampleMesh mixed_sizes(std::uint64_t seed, std::size_t triangles) {
     return mesh;
 }
 
+SampleMesh small_triangles_beside_large(std::uint64_t seed, std::size_t small) {
+    Dice dice(seed);
+    SampleMesh mesh = random_mesh(seed, small);
+    const int smaller = 4 + static_cast<int>(dice.below(50));
+    const std::size_t axis = dice.below(3);
+    const float place = dice.any_of({0, 0, 0x1p-30F, 0x1p-12F, 1});
+    for (MeshPoint& vertex : mesh.vertices) {
+        for (float& coordinate : vertex)
+            coordinate = std::ldexp(coordinate, -smaller);
+        vertex[axis] += place;
+    }
+    const SampleMesh large = random_mesh(seed + 1, 1 + dice.below(6));
+    for (const auto& [a, b, c] : large.triangles)
+        mesh.add_triangle(large.vertices[a], large.vertices[b], large.vertices[c]);
+    return mesh;
+}
+
 SampleMesh with_broken_vertices(SampleMesh mesh, std::uint64_t seed) {
     Dice dice(seed);
     for (MeshPoint& vertex : mesh.vertices)

@@ -36,6 +36,10 @@ SampleMesh close_layers(std::uint64_t seed, std::size_t layers);
 /// The triangles of random meshes as small and as large as single precision allows, mixed.
 SampleMesh mixed_sizes(std::uint64_t seed, std::size_t triangles);
 
+/// Random triangles, some of which are far smaller than the others and lie near a place where these
+/// have few coordinates.
+SampleMesh small_triangles_beside_large(std::uint64_t seed, std::size_t small);
+
 /// A copy in which some vertices have coordinates that are no numbers, or infinite.
 SampleMesh with_broken_vertices(SampleMesh mesh, std::uint64_t seed);
 

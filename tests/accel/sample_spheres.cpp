@@ -81,6 +81,19 @@ SampleSpheres mixed_spheres(std::uint64_t seed, std::size_t count) {
     return spheres;
 }
 
+SampleSpheres small_spheres_beside_large(std::uint64_t seed, std::size_t small) {
+    Dice dice(seed);
+    SampleSpheres spheres = scaled_and_shifted(
+        random_spheres(seed, small), dice.any_of({0x1p-5F, 0x1p-18F, 0x1p-40F}), 0);
+    const std::size_t axis = dice.below(3);
+    const float place = dice.any_of({0, 0, 0x1p-30F, 0x1p-12F, 1});
+    for (std::array<float, 4>& sphere : spheres)
+        sphere[axis] += place;
+    for (const std::array<float, 4>& sphere : random_spheres(seed + 1, 1 + dice.below(5)))
+        spheres.push_back(sphere);
+    return spheres;
+}
+
 SampleSpheres with_broken_numbers(SampleSpheres spheres, std::uint64_t seed) {
     Dice dice(seed);
     for (std::array<float, 4>& sphere : spheres)

@@ -28,6 +28,9 @@ SampleSpheres close_shells(std::uint64_t seed, std::size_t count);
 /// Random spheres as small and as large as single precision allows, mixed.
 SampleSpheres mixed_spheres(std::uint64_t seed, std::size_t count);
 
+/// Random spheres, some of which are far smaller than the others.
+SampleSpheres small_spheres_beside_large(std::uint64_t seed, std::size_t small);
+
 /// A copy in which some numbers are none, or infinite, and some radii negative.
 SampleSpheres with_broken_numbers(SampleSpheres spheres, std::uint64_t seed);
 

@@ -35,6 +35,7 @@ using testing::rays_of_lights;
 using testing::SampleMesh;
 using testing::SampleSpheres;
 using testing::scaled_and_shifted;
+using testing::small_spheres_beside_large;
 using testing::SphereAnswer;
 using testing::told;
 using testing::with_broken_numbers;
@@ -92,6 +93,10 @@ INSTANTIATE_TEST_SUITE_P(
         few_spheres("FewSpheresFarAway", 1, 1e6F),
         few_spheres("FewSmallSpheresFarAway", 0.001F, -3),
         Family{"ManySpheres", 2, [](auto seed) { return random_spheres(seed, 600); }},
+        Family{
+            "SmallBesideLarge",
+            12,
+            [](auto seed) { return small_spheres_beside_large(seed, 1 + 4 * seed); }},
         Family{"CloseShells", 12, [](auto seed) { return close_shells(seed, 2 + 3 * seed); }},
         Family{"MixedSizes", 12, [](auto seed) { return mixed_spheres(seed, 8 * seed); }},
         Family{
@@ -321,6 +326,27 @@ TEST(SphereIndex, IsNotSlowedDownByWhatItLeavesOut) {
     EXPECT_EQ(after.nodes, before.nodes);
     EXPECT_EQ(after.spheres, before.spheres);
     EXPECT_GT(before.spheres, 0U);
+}
+
+TEST(SphereIndex, FindsWhatIsSmallBesideWhatIsHugeInNoMoreSteps) {
+    SampleSpheres spheres = ball_of_balls(40);
+    std::vector<IndexRay> rays;
+    for (int i = 0; i < 256; ++i) {
+        const auto side = static_cast<float>(i % 16) / 16;
+        const auto up = static_cast<float>(i / 16) / 16;
+        rays.push_back({.origin = {3, 0.25F, 0.5F}, .direction = {-3, side - 0.75F, up - 1}});
+    }
+    const auto counted = [&] {
+        SphereQueryCounts counts;
+        std::vector<SphereHit> hits(rays.size());
+        SphereIndex(spheres).nearest_hits(rays, hits, &counts);
+        return counts;
+    };
+    const SphereQueryCounts before = counted();
+    spheres.push_back({0, 0, -1e8F, 0.9e8F});
+    const SphereQueryCounts after = counted();
+    EXPECT_LT(static_cast<double>(after.nodes), 1.1 * static_cast<double>(before.nodes));
+    EXPECT_LE(after.spheres, before.spheres + rays.size()); // the huge one
 }
 
 TEST(SphereIndex, RefusesMoreSpheresThanItCanNumberBeforeItReadsThem) {

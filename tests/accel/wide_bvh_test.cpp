@@ -86,6 +86,33 @@ TEST(WideBvh, TestsFewOfTheElementsOfSmallDetailInALargeRoom) {
     expect_like_brute_force(scene, *index, {rays.begin(), rays.begin() + 50}, "room");
 }
 
+TEST(WideBvh, FindsWhatIsSmallBesideWhatIsHugeInFewMoreTests) {
+    Scene scene;
+    std::vector<QueryRay> rays(400);
+    for (std::uint32_t i = 0; i < 8000; ++i) {
+        const auto place = [](std::uint32_t number) { return 0.1 * (number % 20) - 0.95; };
+        scene.geometry.spheres.push_back({{place(i), place(i / 20), place(i / 400)}, 0.01});
+        scene.geometry.items.push_back({.kind = ItemKind::sphere, .index = i});
+    }
+    for (std::uint32_t i = 0; i < rays.size(); ++i) {
+        rays[i].ray.origin = {3, 0.2, 0.1};
+        rays[i].ray.direction = normalized(Vec3{-3, 0.1 * (i % 20) - 1, 0.1 * (i / 20) - 1});
+    }
+    const auto tests = [&] {
+        number_primitives(scene);
+        std::vector<Hit> hits(rays.size());
+        QueryCounts counts;
+        make_wide_bvh(scene)->nearest_hits(rays, hits, counts);
+        return static_cast<double>(counts.tests);
+    };
+    const double before = tests();
+    constexpr double huge = 1e6;
+    scene.geometry.triangles.push_back(
+        {{Vec3{-huge, -1, -huge}, {huge, -1, -huge}, {0, -1, huge}}});
+    scene.geometry.items.push_back({.kind = ItemKind::triangle});
+    EXPECT_LT(tests(), 2 * before);
+}
+
 TEST(WideBvh, ForecastsWhatItTakes) {
     for (const std::uint64_t seed : {1U, 2U}) {
         RandomSceneSettings settings;

@@ -21,9 +21,11 @@ public:
         , direction_(in_double(ray.direction))
         , t_min_(static_cast<double>(ray.t_min))
         , per_scale_(std::ldexp(1.0, -tree.exponent)) {
-        // Far more than by how much crossings are off that mesh_crossing() calls well known, which
-        // is 2^20 roundings; and more than those of sphere_crossings() are, 2^-24.4 of this.
-        margin_ = 0x1p-22 * (per_scale_ + max_component(abs(origin_)));
+        // Of the origin, as box_rounding is of boxes, far more than by how much crossings are off
+        // that mesh_crossing() calls well known, which is 2^20 roundings; and more than those of
+        // sphere_crossings() are, 2^-24.4. What is too small to be scaled exactly is less than the
+        // rest.
+        margin_ = 0x1p-22 * max_component(abs(origin_)) + 0x1p-44 * per_scale_;
     }
 
     /// Whether the ray may meet something in the child's box before or at t = limit.

@@ -97,11 +97,14 @@ HWY_INLINE hn::Vec<Rays> power_of_two(hn::Vec<RayInts> exponents) {
     return hn::BitCast(Rays(), hn::ShiftLeft<23>(exponents));
 }
 
-/// How far boxes are enlarged for what is rounded, where no coordinate of an origin is larger.
+/// An inverse that is not infinite stands for directions of less than 2^-60, by which rays move
+/// less than 2^-49 on the way to any element.
+constexpr float least_rounding_slack = 0x1p-44F;
+
+/// How far boxes are enlarged, beside what stands in the tree, where no coordinate of an origin is
+/// larger.
 inline float rounding_slack(float largest_origin) {
-    // A plane's place is rounded by up to five units of 2^-24 of what is added up: the plane's
-    // coordinate, which is at most 1, and the origin's.
-    return 0x1p-20F * (1 + largest_origin);
+    return box_rounding * largest_origin + least_rounding_slack;
 }
 
 /// Rays as they were given, in the lanes of registers: the origin and t_min, the direction and

@@ -208,7 +208,8 @@ HWY_INLINE bool start_single(
         backward |= bits_of(d, hn::Lt(inverse, hn::Zero(d))) << i;
         // Along each axis as rounding_slack() says it of the largest coordinate.
         const auto inward = hn::CopySign(
-            hn::MulAdd(hn::Abs(origin), all(0x1p-20F), all(0x1p-20F)), hn::Neg(given_direction));
+            hn::MulAdd(hn::Abs(origin), all(box_rounding), all(least_rounding_slack)),
+            hn::Neg(given_direction));
         hn::StoreU(inverse, d, ray.inverse + i);
         hn::StoreU(hn::Mul(hn::Sub(inward, origin), inverse), d, ray.near_offset + i);
         hn::StoreU(hn::Neg(hn::Mul(hn::Add(origin, inward), inverse)), d, ray.far_offset + i);

@@ -16,6 +16,12 @@ namespace vera::detail {
 /// Elements of a leaf are tested against a ray together.
 constexpr std::size_t most_in_leaf = 8;
 
+/// How far boxes are enlarged for what is rounded where a ray is tested against them, as a part of
+/// their own largest coordinate and of the ray's origin's: a plane's place is off by up to five
+/// units of 2^-24 of the sum of both. The first stands in the tree, so that what is small is not
+/// enlarged by what is large elsewhere.
+constexpr float box_rounding = 0x1p-20F;
+
 /// 2^exponent as two factors, of which each is a usual number.
 struct FloatScale {
     float first = 1;

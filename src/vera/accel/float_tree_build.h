@@ -70,7 +70,19 @@ bool holds_for_all(std::size_t count, const Holds& holds) {
     return all;
 }
 
-/// The boxes of so many elements; those of which box_of(number) is empty are left out.
+/// The box, enlarged by its part of what is rounded.
+inline FloatBox with_rounding(FloatBox box) {
+    float largest = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        largest = std::max({largest, std::abs(box.lower[axis]), std::abs(box.upper[axis])});
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        box.lower[axis] -= box_rounding * largest;
+        box.upper[axis] += box_rounding * largest;
+    }
+    return box;
+}
+
+/// The boxes of so many elements, enlarged; those of which box_of(number) is empty are left out.
 template <typename BoxOf>
 std::vector<BoxReference> float_references(std::size_t count, const BoxOf& box_of) {
     std::vector<BoxReference> references(count);
@@ -78,7 +90,7 @@ std::vector<BoxReference> float_references(std::size_t count, const BoxOf& box_o
     parallel_ranges(count, float_tree_grain, [&](std::size_t first, std::size_t last) {
         bool empty = false;
         for (std::size_t i = first; i < last; ++i) {
-            const FloatBox box = box_of(i);
+            const FloatBox box = with_rounding(box_of(i));
             references[i] = {box.lower, static_cast<std::uint32_t>(i), box.upper, 0};
             empty = empty || !(box.lower[0] <= box.upper[0]);
         }

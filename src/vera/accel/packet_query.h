@@ -99,6 +99,7 @@ struct alignas(64) Frame {
     std::array<std::uint32_t, packet_size> start_element;
     float slack = 0;
     float double_slack = 0;      ///< the part of slack that is not for single precision
+    float box_slack = 0;         ///< how far boxes of a tree are enlarged: see box_rounding
     float behind = 0;            ///< twice the largest coincidence_tolerance() of the lanes
     LaneMask prepared_lanes = 0; ///< whose prepared rays were made
     const LocalGeometry* local = nullptr;
@@ -122,6 +123,11 @@ constexpr double farthest = 8;
 /// Rounding to single precision moves a coordinate, or a point of a ray, by less than 2^-21 of the
 /// unit that holds the bounds; the rest is for the tests' own rounding.
 constexpr double least_slack = 0x1p-18;
+
+/// Boxes of a tree are enlarged by twice the slack. What that is for single precision is taken as a
+/// part of their own largest coordinate, which stands in the tree, and of the rays' origins', so
+/// that what is small is not enlarged by what is large elsewhere.
+constexpr float box_rounding = static_cast<float>(2 * least_slack);
 
 /// Writes the rays row by row.
 void fill_rows(std::span<const QueryRay> rays, RayRows& rows);

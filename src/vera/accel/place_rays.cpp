@@ -198,6 +198,23 @@ HWY_INLINE void place_part(
     behind = hn::Max(behind, hn::IfThenElseZero(counts, behind_here));
 }
 
+/// The largest coordinate of where the lanes' rays start, without its sign.
+HWY_INLINE float largest_origin(const Frame& frame, LaneMask lanes) {
+    const hn::CappedTag<float, packet_size> d;
+    auto largest = hn::Zero(d);
+    for (std::size_t lane = 0; lane < packet_size; lane += hn::Lanes(d)) {
+        const std::uint8_t set[8] = {
+            static_cast<std::uint8_t>(lanes >> lane),
+            static_cast<std::uint8_t>(lanes >> lane >> 8U)};
+        const auto counts = hn::LoadMaskBits(d, set);
+        for (const Frame::Row& row : frame.origin) {
+            const auto size = hn::Abs(hn::LoadU(d, row.data() + lane));
+            largest = hn::IfThenElse(hn::And(counts, hn::Gt(size, largest)), size, largest);
+        }
+    }
+    return hn::GetLane(hn::MaxOfLanes(d, largest));
+}
+
 LaneMask place_rays_kernel(
     Frame& frame,
     LaneMask lanes,
@@ -217,6 +234,8 @@ LaneMask place_rays_kernel(
     frame.slack = static_cast<float>(std::max(slack * (1 + 0x1p-20), least_slack));
     frame.double_slack = static_cast<float>(std::max(slack - least_slack, 0.0) * (1 + 0x1p-20));
     frame.behind = static_cast<float>(behind * (1 + 0x1p-20));
+    frame.box_slack =
+        2 * frame.double_slack + box_rounding * largest_origin(frame, placed.touching & lanes);
     placed.strange &= lanes;
     for (LaneMask rest = placed.strange; rest != 0; rest &= rest - 1) {
         const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
@@ -231,6 +250,7 @@ LaneMask place_rays_kernel(
         frame.speed[lane] = 0;
         frame.slack = static_cast<float>(largest_slack);
         frame.double_slack = frame.slack;
+        frame.box_slack = 2 * frame.slack;
     }
     return (placed.touching & lanes) | placed.strange;
 }

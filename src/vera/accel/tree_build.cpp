@@ -3,11 +3,10 @@
 
 #include "vera/accel/box_tree.h"
 #include "vera/accel/box_tree_nodes.h"
+#include "vera/accel/packet_query.h"
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
-#include <limits>
 #include <numeric>
 #include <span>
 #include <stdexcept>
@@ -17,18 +16,15 @@ namespace vera::detail {
 
 namespace {
 
-constexpr float infinite = std::numeric_limits<float>::infinity();
-
-/// Rounded outward. Infinite bounds, of elements of the size of the largest numbers, stay so.
-FloatBox rounded(const Box3& box) {
+/// In single precision, and enlarged by far more than that rounds: see box_rounding. Infinite
+/// bounds, of elements of the size of the largest numbers, stay so, and others beside them finite.
+FloatBox enlarged(const Box3& box) {
+    const double largest = max_component(max(abs(box.lower), abs(box.upper)));
+    const double rounding = static_cast<double>(box_rounding) * std::min(largest, 1.0);
     FloatBox result;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        const auto lower = static_cast<float>(box.lower[axis]);
-        const auto upper = static_cast<float>(box.upper[axis]);
-        result.lower[axis] =
-            static_cast<double>(lower) > box.lower[axis] ? std::nextafter(lower, -infinite) : lower;
-        result.upper[axis] =
-            static_cast<double>(upper) < box.upper[axis] ? std::nextafter(upper, infinite) : upper;
+        result.lower[axis] = static_cast<float>(box.lower[axis] - rounding);
+        result.upper[axis] = static_cast<float>(box.upper[axis] + rounding);
     }
     return result;
 }
@@ -52,7 +48,7 @@ references_of(const LocalGeometry& local, const std::vector<Box3>& subscene_boun
         for (std::size_t i = first; i < last; ++i) {
             const Element element = element_at(geometry, i);
             const Box3 box = local_box(local, element, subscene_bounds);
-            const auto [lower, upper] = rounded(box);
+            const auto [lower, upper] = enlarged(box);
             const ElementRecord::Kind kind = element_record(local, element, box).kind;
             references[i] = {
                 lower, static_cast<std::uint32_t>(i), upper, static_cast<std::uint32_t>(kind)};

@@ -61,7 +61,7 @@ struct BoxRays {
 
 HWY_INLINE void fill_box_rays(const Frame& frame, BoxRays& rays) {
     const Lanes d;
-    const auto slack = hn::Set(d, 2 * frame.slack);
+    const auto slack = hn::Set(d, frame.box_slack);
     for (std::size_t axis = 0; axis < 3; ++axis) {
         LaneMask backward = 0;
         for (std::size_t i = 0; i < packet_size; i += hn::Lanes(d)) {

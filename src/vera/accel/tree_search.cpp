@@ -35,7 +35,7 @@ struct Beam {
 HWY_INLINE Beam beam_of(const Frame& frame, std::size_t octant, LaneMask lanes) {
     const Lanes d;
     Beam beam;
-    const float inward = 2 * frame.slack;
+    const float inward = frame.box_slack;
     const auto largest = hn::Set(d, std::numeric_limits<float>::max());
     for (std::size_t axis = 0; axis < 3; ++axis) {
         auto least_inverse = largest;

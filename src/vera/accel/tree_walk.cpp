@@ -49,7 +49,7 @@ bool meets_child(const Frame& frame, const WideNode& node, std::size_t child) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const float inverse = frame.inverse[axis][0];
         const float origin = frame.origin[axis][0];
-        const float outward = std::copysign(2 * frame.slack, inverse);
+        const float outward = std::copysign(frame.box_slack, inverse);
         const bool backward = inverse < 0;
         const float first = node.planes[backward ? axis + 3 : axis][child];
         const float last = node.planes[backward ? axis : axis + 3][child];
