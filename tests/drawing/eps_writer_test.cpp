@@ -44,7 +44,7 @@ TEST(WriteEps, DefinesGradientsAsPatternsOfLevelThree) {
         HasSubstr("\n/P0 <</PatternType 2/Shading<</ShadingType 2/ColorSpace/DeviceRGB"
                   "/Coords[0 0 1 0]/Extend[true true]/Function<</FunctionType 2/Domain[0 1]"
                   "/C0[1 0 0]/C1[0 0 1]/N 1>>>>>>[7.5 0 0 -7.5 .75 21.75]makepattern def\n"));
-    EXPECT_THAT(text, HasSubstr("\n/Pattern cs /P0 scn\n100 100 m\n"));
+    EXPECT_THAT(text, HasSubstr("\n/Pattern cs /P0 scn\n1 1 m\n"));
 }
 
 TEST(WriteEps, IsAWholeFileForAnEmptyDrawing) {

@@ -148,31 +148,31 @@ TEST(WritePdf, HasShadingsAsPatterns) {
     ASSERT_EQ(found.size(), 11U);
     EXPECT_THAT(found[2], HasSubstr("/Pattern<</P0 8 0 R/P1 9 0 R>>"));
     EXPECT_EQ(inflated(found[3]), R"(q
-.0075 0 0 -.0075 0 22.5 cm
+.75 0 0 -.75 0 22.5 cm
 /OC /L0 BDC
-200 w 0 J 1 j [] 0 d
+2 w 0 J 1 j [] 0 d
 /Pattern cs /P0 scn
-100 100 m
-600 100 l
-600 1100 l
-100 1100 l
+1 1 m
+6 1 l
+6 11 l
+1 11 l
 h
 f
 /Pattern CS /P0 SCN
-600 100 m
-600 1100 l
+6 1 m
+6 11 l
 S
-600 100 m
-1100 100 l
-1100 1100 l
-600 1100 l
+6 1 m
+11 1 l
+11 11 l
+6 11 l
 h
 f
 /Pattern cs /P1 scn
-500 1500 m
-1500 1500 l
-1500 2500 l
-500 2500 l
+5 15 m
+15 15 l
+15 25 l
+5 25 l
 h
 f
 EMC
@@ -191,6 +191,16 @@ Q
         "<</FunctionType 2/Domain[0 1]/C0[1 1 1]/C1[0 1 0]/N 1>>"
         "<</FunctionType 2/Domain[0 1]/C0[0 1 0]/C1[0 0 0]/N 1>>]"
         "/Bounds[.25 .5]/Encode[0 1 0 1 0 1]>>>>/Matrix[3 -2.25 -1.125 -1.5 7.5 7.5]>>");
+}
+
+// Poppler paints no gradient where a page is scaled to less than a thousandth.
+TEST(WritePdf, ScalesPagesWithGradientsTheSameAtEveryPrecision) {
+    Drawing drawing = drawing_of_gradients();
+    drawing.fills[0].rings[0][1] = {6.12345678, -0.5};
+    const std::string text =
+        inflated(objects_by_stream(written(write_pdf, drawing, {.precision = 1e-6}))[3]);
+    EXPECT_THAT(text, HasSubstr("q\n.75 0 0 -.75 0 22.5 cm\n"));
+    EXPECT_THAT(text, HasSubstr("\n1 1 m\n6.123457 -.5 l\n6 11 l\n"));
 }
 
 TEST(WritePdf, IsAWholeFileForAnEmptyDrawing) {

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <iterator>
 #include <memory>
 #include <span>
 #include <utility>
@@ -22,13 +21,15 @@ namespace {
 class PageWriter {
 public:
     PageWriter(const Lattice& lattice, const Gradients& gradients)
-        : lattice_(lattice)
-        , gradients_(gradients) {}
+        : gradients_(gradients)
+        , units_per_pixel_(gradients.count() > 0 ? 1 : lattice.units_per_pixel())
+        , digits_(gradients.count() > 0 ? lattice.digits() : 0)
+        , scale_digits_(9 + lattice.digits() - digits_) {}
 
-    /// From units of the lattice, counted from the top, to points, counted from the bottom.
+    /// From units, counted from the top, to points, counted from the bottom.
     void begin_page(PageSize page, double pixels_wide) {
         const std::string scale =
-            decimal(page.width / (pixels_wide * lattice_.units_per_pixel()), 9 + lattice_.digits());
+            decimal(page.width / (pixels_wide * units_per_pixel_), scale_digits_);
         text_ += fmt::format("q\n{0} 0 0 -{0} 0 {1} cm\n", scale, decimal(page.height, 6));
     }
 
@@ -124,15 +125,18 @@ private:
     }
 
     void write_point(SnappedPoint point) {
-        fmt::format_to(std::back_inserter(text_), "{} {} ", point.x, point.y);
+        for (const std::int64_t coordinate : {point.x, point.y})
+            text_.append(decimal(coordinate, digits_)).append(" ");
     }
 
-    std::string length(double pixels) const {
-        return decimal(pixels * lattice_.units_per_pixel(), 4);
-    }
+    std::string length(double pixels) const { return decimal(pixels * units_per_pixel_, 4); }
 
-    const Lattice& lattice_;
     const Gradients& gradients_;
+    // Poppler paints no gradient where the page is scaled to less than a thousandth: with gradients
+    // a unit is a whole pixel, else one of the lattice.
+    double units_per_pixel_;
+    int digits_; ///< of coordinates, behind the point
+    int scale_digits_;
     std::string text_;
     // What they are set to, in the words of Paint; empty before they are.
     std::string fill_paint_;

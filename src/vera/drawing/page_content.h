@@ -28,9 +28,10 @@ inline constexpr std::size_t most_page_groups = 1024;
 std::vector<std::string> layer_names(const Layers& layers);
 
 /// The drawing in the operators of a PDF page, which an EPS defines for itself (q cm rg RG cs scn
-/// CS SCN w J j d re m l c h f S Q). Coordinates are whole numbers, in units of the lattice.
-/// Gradient number i is the pattern /Pi. Groups are told down to the depth to which there are no
-/// more than most_page_groups, and outlines without a group by their id. Throws Cancelled.
+/// CS SCN w J j d re m l c h f S Q). Coordinates are whole numbers, in units of the lattice; where
+/// there are gradients, of which number i is the pattern /Pi, they are in pixels. Groups are told
+/// down to the depth to which there are no more than most_page_groups, and outlines without a group
+/// by their id. Throws Cancelled.
 std::string page_content(
     const Drawing& drawing,
     const DrawingSettings& settings,
