@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "central_strategy.h"
 
+#include "vera/formats/word_reader.h"
 #include "vera/scene/facets.h"
 #include "vera/visible/projection.h"
 
@@ -36,9 +37,9 @@ Facets all_facets(const PreparedScene& prepared, const CancelFlag& cancel) {
 
 [[noreturn]] void throw_sends_on(const Material& material, const char* why, const char* remedy) {
     throw CommandLineError(fmt::format(
-        "--strategy central answers rays from the viewer and the lights alone, and material '{}' "
+        "--strategy central answers rays from the viewer and the lights alone, and material {} "
         "{}: {}",
-        material.name,
+        shown(material.name),
         why,
         remedy));
 }

@@ -5,6 +5,7 @@
 #include "vera/base/progress_part.h"
 #include "vera/base/version.h"
 #include "vera/drawing/drawing_file.h"
+#include "vera/formats/word_reader.h"
 #include "vera/render/exposure.h"
 #include "vera/scene/item_names.h"
 #include "vera/scene/surface.h"
@@ -192,7 +193,7 @@ std::optional<Diagnostic> transparency_warning(const Scene& scene) {
     const std::string& name = material_of(scene, first->material).name;
     warning.problem = fmt::format(
         "{} lets light through{}, and a drawing shows nothing through it and no shadow of it",
-        name.empty() ? "the material" : fmt::format("material '{}'", name),
+        name.empty() ? "the material" : "material " + shown(name),
         materials.size() > 1 ? fmt::format(" (as {} more)", materials.size() - 1) : "");
     warning.remedy = "'vera render' follows the light, and TAB 0 0 0 makes the material opaque";
     return warning;

@@ -42,9 +42,11 @@ void stop_on_interrupt(Console& console) {
     sigemptyset(&action.sa_mask);
     for (const int signal : {SIGINT, SIGTERM, SIGHUP})
         sigaction(signal, &action, nullptr);
-    // A reader that goes away is a failed write, told like any other.
+    // A reader that goes away and a file that outgrows its limit are failed writes, told like any
+    // other.
     action.sa_handler = SIG_IGN;
-    sigaction(SIGPIPE, &action, nullptr);
+    for (const int signal : {SIGPIPE, SIGXFSZ})
+        sigaction(signal, &action, nullptr);
 }
 
 bool work_looks_at_the_flag() noexcept {

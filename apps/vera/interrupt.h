@@ -8,8 +8,9 @@
 namespace vera {
 
 /// Makes SIGINT (Ctrl-C), SIGTERM and SIGHUP end the process at once, with no partial file left.
-/// During cancellable work the first one raises the console's flag instead. The console must live
-/// to the end of the process.
+/// During cancellable work the first one raises the console's flag instead. Signals that tell of
+/// failed writes are ignored: the writes tell of it as well. The console must live to the end of
+/// the process.
 void stop_on_interrupt(Console& console);
 
 /// Whether such work runs.

@@ -128,6 +128,12 @@ TEST(DrawCommand, FailsClearlyWhereItCannotReadOrWrite) {
     if (std::filesystem::exists("/dev/full")) {
         EXPECT_EQ(run_vera(folder, "draw a.vera --format svg -o - >/dev/full").exit_code, 3);
     }
+    const ProgramRun too_large = run_vera(folder, "draw a.vera -o a.svg", "ulimit -f 1;");
+    EXPECT_EQ(too_large.exit_code, 3);
+    EXPECT_EQ(
+        too_large.err,
+        "vera: error: cannot write 'a.svg'; raise the limit on the size of files (ulimit -f) or "
+        "choose a smaller picture: File too large\n");
     EXPECT_EQ(folder.file_count(), 1U);
 }
 

@@ -215,6 +215,15 @@ TEST(DrawCommand, WarnsOnceOfWhatLetsLightThrough) {
     }
 }
 
+TEST(DrawCommand, ShowsNamesOfMaterialsWithoutControlCharacters) {
+    const ScratchFolder folder;
+    folder.write("a.mtl", "newmtl \x1b[31mred\nd 0.5\n");
+    folder.write("a.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl \x1b[31mred\nf 1 2 3\n");
+    const ProgramRun run = run_vera(folder, "draw a.obj -o a.svg");
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_TRUE(holds(run.err, "material '\\x1b[31mred' lets light through")) << run.err;
+}
+
 TEST(DrawCommand, IsRightWhereTrianglesOfOnePlaneArePassedThrough) {
     // Of coincident ones the order goes round; and ways round faces are joined.
     const char* const scenes[] = {

@@ -21,6 +21,7 @@
 namespace vera {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
@@ -188,7 +189,9 @@ TEST(ObjParts, SayWhatIsMissing) {
     const auto without = folder.file("b.obj", square + "usemtl red\nf 1 2 3\n");
     EXPECT_THAT(
         printed(read_scene(without, {}).warnings),
-        HasSubstr("b.obj:5:8: warning: no 'mtllib' names a file that defines materials"));
+        AllOf(
+            HasSubstr("b.obj:5:8: warning: no 'mtllib' names a file that defines materials"),
+            HasSubstr("write 'mtllib FILE.mtl', or 'CM NAME' before MESH in a scene")));
     folder.file("m.mtl", "newmtl blue\n");
     const auto undefined =
         folder.file("c.obj", "mtllib m.mtl\n" + square + "usemtl red\nf 1 2 3\n");

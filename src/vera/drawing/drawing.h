@@ -84,7 +84,7 @@ struct DrawingMaterial {
     friend bool operator==(const DrawingMaterial&, const DrawingMaterial&) = default;
 };
 
-/// What areas are part of. In an SVG an element, in other formats nothing.
+/// What areas are part of. In an SVG an element, in a PDF optional content, in an EPS comments.
 struct DrawingGroup {
     std::string id = {};
     std::string name = {};                                ///< for people; may be empty

@@ -245,7 +245,7 @@ private:
                 : fmt::format(
                     "{} in no file that 'mtllib' names, the first of them here: default colours",
                     counted(undefined, "material is", "materials are")),
-            said_.libraries.empty() ? "write 'mtllib FILE.mtl', or give the mesh a material (MT)"
+            said_.libraries.empty() ? "write 'mtllib FILE.mtl', or 'CM NAME' before MESH in a scene"
                                     : "define it there with 'newmtl'");
     }
 
