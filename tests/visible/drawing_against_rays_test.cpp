@@ -104,6 +104,43 @@ TEST(CameraMap, SeesThroughALongLensAndNothingBehind) {
     EXPECT_TRUE(std::isinf(map.size_of_pixel(100, 50, 2 * camera.viewpoint)));
 }
 
+// Near the corners of wide pictures, and where parallel rays meet the picture at a slant, it moves
+// farther than in the middle.
+TEST(CameraMap, TellsHowFarWhatMovesAPixelMoves) {
+    Camera camera;
+    camera.lower_left = {-2, -1, 0};
+    camera.lower_right = {2, -1, 0};
+    camera.upper_left = {-2, 1, 0};
+    for (const bool is_parallel : {false, true}) {
+        camera.projection =
+            is_parallel ? Camera::Projection::parallel : Camera::Projection::perspective;
+        camera.viewpoint = {0.5, 0.25, 1};
+        camera.direction = {1, 0.5, -1};
+        const CameraMap map(camera);
+        double farthest = 0;
+        for (const double x : {0.0, 0.25, 0.5, 1.0})
+            for (const double y : {0.0, 0.5, 1.0})
+                for (const double t : {0.25, 1.0, 40.0}) {
+                    const Ray ray = view_ray(camera, x, y);
+                    const Vec3 at = point_at(ray, t);
+                    const double way = 1e-3 * map.size_of_pixel_around(80, 40, at);
+                    const Vec3 across = normalized(cross(ray.direction, {0.3, 1, 0.2}));
+                    for (int i = 0; i < 32; ++i) {
+                        const Vec3 to = std::cos(i * 0.2) * across
+                            + std::sin(i * 0.2) * cross(ray.direction, across);
+                        const ImagePoint from = map.image_point(at);
+                        const ImagePoint moved = map.image_point(at + way * to);
+                        const double pixels = 1e3
+                            * std::hypot(80 * (moved.x / moved.w - from.x / from.w),
+                                         40 * (moved.y / moved.w - from.y / from.w));
+                        EXPECT_LE(pixels, 1.01);
+                        farthest = std::max(farthest, pixels);
+                    }
+                }
+        EXPECT_GE(farthest, 0.98);
+    }
+}
+
 /// A place of a facet, none of its corners.
 Vec3 place_on(const Facets& facets, const Facets::Triangle& facet, double part, double other) {
     const Vec3 a = facets.corners[facet.corners[0]];
@@ -128,7 +165,7 @@ TEST(DeviationInPixels, OfSurfacesRoundTheViewerIsKeptInThePictureWithFewFacetsB
         for (const FacetReach reach : {FacetReach::seen, FacetReach::throwing}) {
             const Facets all =
                 facets(scene, deviation_in_pixels(map, pixels, pixels, deviation, reach));
-            EXPECT_LT(all.triangles.size(), 100'000U) << number;
+            EXPECT_LT(all.triangles.size(), 110'000U) << number;
             int compared = 0;
             for (const Facets::Triangle& facet : all.triangles)
                 for (const double part : {0.25, 0.5, 0.75}) {

@@ -283,15 +283,25 @@ double CameraMap::size_of_pixel(double columns, double rows, Vec3 point) const {
 
 double CameraMap::size_of_pixel_around(double columns, double rows, Vec3 point) const {
     const double pixel = std::min(width_ / columns, height_ / rows);
+    // What moves across a ray that meets the image plane at a slant moves farther there, by the
+    // cosine.
     if (is_parallel_)
-        return pixel;
+        return pixel * unit_depth();
+    const double distance = length(point - viewpoint_);
+    if (!(distance > 0))
+        return pixel * nearest_part;
     // In the picture w is the larger one: a point of the image plane is no farther than the corner.
-    const double at_corner = length(point - viewpoint_) / farthest_corner_;
-    return pixel * std::max({image_point(point).w, at_corner, nearest_part});
+    const double part = std::max(image_point(point).w, distance / farthest_corner_);
+    const double cosine = part * unit_depth() / distance;
+    return pixel * std::max(part * cosine, nearest_part);
 }
 
 double CameraMap::way_behind(Vec3 point) const {
-    return std::max(0.0, -image_point(point).w / length(from_world_.linear.rows[2]));
+    return std::max(0.0, -image_point(point).w * unit_depth());
+}
+
+double CameraMap::unit_depth() const {
+    return 1 / length(from_world_.linear.rows[2]);
 }
 
 Deviation deviation_in_pixels(

@@ -37,14 +37,18 @@ public:
     /// never 0. Infinite where nothing is seen: behind the view point.
     double size_of_pixel(double columns, double rows, Vec3 point) const;
 
-    /// The same in all directions: where nothing is seen, beside the picture and behind the viewer,
-    /// as large as it is in the farthest corner of the picture at that distance.
+    /// How far something at the point may move across the ray to it, and moves no farther than a
+    /// pixel; in all directions: where nothing is seen, beside the picture and behind the viewer,
+    /// as far as in the farthest corner of the picture at that distance.
     double size_of_pixel_around(double columns, double rows, Vec3 point) const;
 
     /// How far the point lies behind the plane, parallel to the picture, of the view point; else 0.
     double way_behind(Vec3 point) const;
 
 private:
+    /// How far apart planes parallel to the picture are whose w, or depth, differs by 1.
+    double unit_depth() const;
+
     Affine3 from_world_;
     bool is_parallel_ = false;
     double width_ = 0; ///< of the picture in the image plane
