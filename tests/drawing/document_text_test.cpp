@@ -13,7 +13,8 @@ namespace {
 using namespace std::string_literals;
 
 TEST(XmlText, EscapesWhatMeansSomething) {
-    EXPECT_EQ(xml_text("a<b> & \"c\" 'd'\n"), "a&lt;b&gt; &amp; &quot;c&quot; 'd'\n");
+    EXPECT_EQ(xml_text("a<b> & \"c\" 'd'"), "a&lt;b&gt; &amp; &quot;c&quot; 'd'");
+    EXPECT_EQ(xml_text("a\tb\n"), "a&#9;b&#10;"); // an attribute keeps them so
     EXPECT_EQ(xml_text("J\xc3\xb6rg \xf0\x9f\x8e\xa8"), "J\xc3\xb6rg \xf0\x9f\x8e\xa8");
 }
 

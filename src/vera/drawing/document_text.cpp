@@ -66,7 +66,7 @@ bool is_printable_ascii(char32_t code) {
 }
 
 bool is_of_xml(char32_t code) {
-    return code == '\t' || code == '\n' || (code >= ' ' && code != 0xfffe && code != 0xffff);
+    return code >= ' ' && code != 0xfffe && code != 0xffff;
 }
 
 } // namespace
@@ -90,6 +90,13 @@ std::string xml_text(std::string_view utf8) {
             break;
         case '"':
             text += "&quot;";
+            break;
+        // As they stand, those of an attribute would be read as blanks.
+        case '\t':
+            text += "&#9;";
+            break;
+        case '\n':
+            text += "&#10;";
             break;
         default:
             // A replacement character is written anew: its bytes may be those of no character.
