@@ -65,6 +65,46 @@ TEST(DrawnSeams, MixNoOtherColorIntoWhatLiesBeyondAThinNeighbour) {
     }
 }
 
+/// A rectangle of that grey before the wall at z = 0.
+void add_rectangle(Scene& scene, Vec3 lower, Vec3 upper, double grey) {
+    Material material;
+    material.sdi = {grey, grey, grey};
+    add_polygon(
+        scene.geometry, {lower, {upper.x, lower.y, 0}, upper, {lower.x, upper.y, 0}});
+    scene.geometry.items.back().material = static_cast<MaterialId>(scene.materials.size());
+    scene.materials.push_back(material);
+}
+
+TEST(DrawnSeams, EndAtCornersAsFarFromTheOneBorderAsFromTheOther) {
+    // White below, black on the left, and grey, painted last, in the corner between them: black
+    // that goes on below all of a strip of grey comes through where grey's edge along white is
+    // smoothed.
+    for (const DrawingStyle style : {DrawingStyle::flat, DrawingStyle::shaded}) {
+        Scene scene;
+        add_rectangle(scene, {-2, -2, 0}, {2, 0, 0}, 0.9);
+        add_rectangle(scene, {-2, 0, 0}, {0, 2, 0}, 0.1);
+        add_rectangle(scene, {0, 0, 0}, {2, 2, 0}, 0.5);
+        number_primitives(scene);
+        DrawSettings settings;
+        settings.style = style;
+        Drawing drawing = draw_scene(scene, camera_from_the_front(), {}, settings).drawing;
+        ASSERT_EQ(drawing.fills.size(), 4U);
+        ASSERT_EQ(drawing.fills.front().id, "underlay");
+        drawing.fills.erase(drawing.fills.begin());
+        drawing.fills.pop_back();
+        const auto below = [&](double right, double up) {
+            const auto color = testing::painted_color(drawing.fills, {256 + right, 256 - up});
+            return color ? color->g : -1;
+        };
+        for (const double far : {0.2, 0.5, 0.9}) {
+            EXPECT_GT(below(far, 0.05), 0.6) << far;
+            EXPECT_GT(below(far, far - 0.05), 0.6) << far;
+            EXPECT_NEAR(below(0.05, far), 0.1, 0.05) << far;
+            EXPECT_NEAR(below(far - 0.05, far), 0.1, 0.05) << far;
+        }
+    }
+}
+
 TEST(DrawnSeams, OfAHairDoNotComeOutOnItsOtherSide) {
     // A hair of a third of a pixel along the border of what is painted later and has many corners:
     // half of a line along that border would stand before the background.

@@ -102,14 +102,11 @@ public:
         }
         const HalfPlane rest = other_side(*half);
         PaintedRegion first = part_of(region, *half, moved(*half, overlap));
-        // It goes on below the other part, which is painted later, in a strip that begins on its
-        // own side of the cut: if the two only met there, a gap might be left, as corners are
-        // rounded.
-        std::ranges::move(
-            cut_rings(cut_rings(region.rings, moved(rest, overlap)), moved(*half, overlap)),
-            std::back_inserter(first.below));
+        std::ranges::move(strip_beyond(region.rings, *half), std::back_inserter(first.below));
         paint(std::move(first), cuts + 1);
+        painted_beside_.push_back(rest);
         paint(part_of(region, rest, rest), cuts + 1);
+        painted_beside_.pop_back();
     }
 
     std::vector<FilledOutline> take() { return std::move(painted_); }
@@ -117,6 +114,7 @@ public:
 private:
     static constexpr double shortest_cut = 1;       ///< pixels
     static constexpr double overlap = 1;            ///< pixels
+    static constexpr double gap = 0.2;              ///< pixels: more than rounding leaves
     static constexpr int most_cuts = 16;            ///< one after the other
     static constexpr std::uint64_t most_rounds = 6; ///< of places added to samples
 
@@ -348,6 +346,22 @@ private:
         return worst;
     }
 
+    /// Where a part on one side of a cut goes on below the other one, which is painted later: a
+    /// strip that begins on its own side of the cut, since if the two only met there, a gap might be
+    /// left, as corners are rounded. It keeps as far from what was painted before the part as from
+    /// the cut: at that edge of the other part, which is smoothed, it would come through.
+    std::vector<BorderRing>
+    strip_beyond(const std::vector<BorderRing>& rings, const HalfPlane& half) const {
+        std::vector<BorderRing> strip =
+            cut_rings(cut_rings(rings, moved(other_side(half), gap)), moved(half, overlap));
+        for (const HalfPlane& rest : painted_beside_)
+            strip = cut_rings(
+                strip,
+                {{half.normal.x + rest.normal.x, half.normal.y + rest.normal.y},
+                 half.reach + rest.reach});
+        return strip;
+    }
+
     static PaintedRegion
     part_of(const PaintedRegion& region, const HalfPlane& half, const HalfPlane& half_below) {
         PaintedRegion part;
@@ -373,6 +387,7 @@ private:
     std::span<const DrawingEllipse> curves_;
     const CancelFlag* cancel_;
     std::vector<FilledOutline> painted_;
+    std::vector<HalfPlane> painted_beside_; ///< what the part lies in, earlier ones beyond it
 };
 
 } // namespace

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <optional>
 #include <utility>
 
 namespace vera {
@@ -39,6 +40,82 @@ std::size_t end_of_straight(std::span<const BorderPoint> border, std::size_t fir
         }
     }
     return last;
+}
+
+DrawingPoint unit(DrawingPoint way) {
+    const double length = std::sqrt(dot(way, way));
+    return {way.x / length, way.y / length};
+}
+
+/// The first of the points that is not near to the one at which the way along them begins: what is
+/// shorter tells no direction.
+template <typename PointAt>
+DrawingPoint point_ahead(DrawingPoint begin, std::size_t count, const PointAt& point_at) {
+    constexpr double near = 0.1; // pixels
+    DrawingPoint ahead = begin;
+    for (std::size_t i = 1; i < count; ++i) {
+        ahead = point_at(i);
+        if (const DrawingPoint way = way_from(begin, ahead); dot(way, way) >= near * near)
+            break;
+    }
+    return ahead;
+}
+
+/// One end of a border, and the half plane beyond which what lies in the neighbour is nearer to
+/// that one's next side than to the border.
+struct BorderEnd {
+    DrawingPoint point;
+    std::optional<HalfPlane> half; ///< none where the sides have one direction
+
+    /// That of sides towards these points.
+    BorderEnd(DrawingPoint end, DrawingPoint along, DrawingPoint other)
+        : point(end) {
+        if (along == end || other == end)
+            return;
+        const DrawingPoint a = unit(way_from(end, along));
+        const DrawingPoint b = unit(way_from(end, other));
+        // The bisector, also of an angle that is more than a half turn.
+        if (const DrawingPoint normal = way_from(a, b); dot(normal, normal) > 0)
+            half = HalfPlane{normal, dot(normal, end)};
+    }
+
+    /// Whether strips along a chord that begins or ends there come near.
+    bool is_near(DrawingPoint place) const {
+        constexpr double reach = 2 * strip_width;
+        const DrawingPoint way = way_from(point, place);
+        return dot(way, way) <= reach * reach;
+    }
+};
+
+/// The ends of the border, where it is not all of one of the neighbour's rings.
+std::vector<BorderEnd>
+ends_of(std::span<const BorderPoint> border, const std::vector<BorderRing>& neighbour) {
+    // The neighbour's rings go along it the other way.
+    const DrawingPoint& first = border.front();
+    const DrawingPoint& last = border.back();
+    std::vector<BorderEnd> ends;
+    if (first == last)
+        return ends;
+    const auto along_border = [&](std::size_t i) { return border[i]; };
+    const auto back_along_border = [&](std::size_t i) { return border[border.size() - 1 - i]; };
+    for (const BorderRing& ring : neighbour)
+        for (std::size_t i = 0; i < ring.size(); ++i) {
+            const auto ahead = [&](std::size_t j) { return ring[(i + j) % ring.size()]; };
+            const auto back = [&](std::size_t j) {
+                return ring[(i + ring.size() - j) % ring.size()];
+            };
+            if (ring[i] == first && back(1) == border[1])
+                ends.emplace_back(
+                    first,
+                    point_ahead(first, border.size(), along_border),
+                    point_ahead(first, ring.size(), ahead));
+            if (ring[i] == last && ahead(1) == border[border.size() - 2])
+                ends.emplace_back(
+                    last,
+                    point_ahead(last, border.size(), back_along_border),
+                    point_ahead(last, ring.size(), back));
+        }
+    return ends;
 }
 
 /// What of the areas lies close to the chord.
@@ -86,11 +163,15 @@ void reach_back(
 
 std::vector<BorderRing>
 seam_strips(std::span<const BorderPoint> border, const std::vector<BorderRing>& neighbour) {
+    const std::vector<BorderEnd> ends = ends_of(border, neighbour);
     std::vector<BorderRing> strips;
     for (std::size_t first = 0; first + 1 < border.size();) {
         const std::size_t last = end_of_straight(border, first);
-        std::ranges::move(
-            strips_along(border[first], border[last], neighbour), std::back_inserter(strips));
+        std::vector<BorderRing> along = strips_along(border[first], border[last], neighbour);
+        for (const BorderEnd& end : ends)
+            if (end.half && (end.is_near(border[first]) || end.is_near(border[last])))
+                along = cut_rings(along, *end.half);
+        std::ranges::move(along, std::back_inserter(strips));
         first = last;
     }
     return strips;

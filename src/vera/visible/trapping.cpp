@@ -31,10 +31,19 @@ void for_each_border_with_later(
     const auto own = regions.rings(number);
     for (std::size_t i = 0; i < own.size(); ++i) {
         BorderRing points = rings[i];
-        points.push_back(points.front());
-        const auto across = [&](std::size_t side) {
-            return regions.map().ring_across[own[i].first + side];
+        const auto across_side = [&](std::size_t side) {
+            return regions.map().ring_across[own[i].first + side % points.size()];
         };
+        // The ring may begin amid the border with one neighbour.
+        std::size_t begin = 0;
+        while (begin < points.size() && across_side(begin) == across_side(begin + points.size() - 1))
+            ++begin;
+        begin %= points.size();
+        const auto across = [&, count = points.size()](std::size_t side) {
+            return regions.map().ring_across[own[i].first + (begin + side) % count];
+        };
+        std::ranges::rotate(points, points.begin() + static_cast<std::ptrdiff_t>(begin));
+        points.push_back(points.front());
         for (std::size_t side = 0, end = 0; side + 1 < points.size(); side = end) {
             for (end = side + 1; end + 1 < points.size() && across(end) == across(side);)
                 ++end;
