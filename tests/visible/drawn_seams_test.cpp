@@ -69,8 +69,7 @@ TEST(DrawnSeams, MixNoOtherColorIntoWhatLiesBeyondAThinNeighbour) {
 void add_rectangle(Scene& scene, Vec3 lower, Vec3 upper, double grey) {
     Material material;
     material.sdi = {grey, grey, grey};
-    add_polygon(
-        scene.geometry, {lower, {upper.x, lower.y, 0}, upper, {lower.x, upper.y, 0}});
+    add_polygon(scene.geometry, {lower, {upper.x, lower.y, 0}, upper, {lower.x, upper.y, 0}});
     scene.geometry.items.back().material = static_cast<MaterialId>(scene.materials.size());
     scene.materials.push_back(material);
 }

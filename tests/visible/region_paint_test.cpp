@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <random>
+#include <span>
 #include <vector>
 
 #include "visible/painted_color.h"
@@ -251,6 +252,54 @@ TEST(RegionPaint, LeavesNoGapBetweenPartsWhoseCornersAreRounded) {
             }
     EXPECT_GT(places, 2000);
     EXPECT_EQ(gaps, 0);
+}
+
+/// What smooths the edge of an area lets through what is below it there: that must be of a colour
+/// that is seen nearby.
+TEST(RegionPaint, LetsNoOtherColorsThroughWherePartsAreSmoothed) {
+    constexpr double size = 12;
+    PaintedRegion region;
+    region.rings = {{{0, 0}, {size, 0}, {size, size}, {0, size}}};
+    const auto beyond_jump = [](DrawingPoint at) {
+        return at.x - 5.3 - 0.17 * at.y - 0.03 * at.y * at.y;
+    };
+    const ColorField field = [&](DrawingPoint at) {
+        return beyond_jump(at) > 0 ? Color{0.7, 0.3 + 0.01 * at.y, 0.2} : Color{0.1, 0.1, 0.1};
+    };
+    const auto fills = painted(region, field, {});
+    ASSERT_GT(fills.size(), 20U);
+    const auto last_at = [&](DrawingPoint at) {
+        std::size_t last = fills.size();
+        while (last > 0 && !testing::painted_color(std::span(fills).subspan(last - 1, 1), at))
+            --last;
+        return last;
+    };
+    std::mt19937 random(15);
+    const auto part = [&] { return static_cast<double>(random() % 4096) / 4096; };
+    int edges = 0;
+    int others = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const double y = 2 + (size - 4) * part();
+        const DrawingPoint at = {5.3 + 0.17 * y + 0.03 * y * y + 3 * part() - 1.5, y};
+        const std::size_t last = last_at(at);
+        ASSERT_GT(last, 0U);
+        const auto below = testing::painted_color(std::span(fills).first(last - 1), at);
+        bool is_edge = false;
+        bool is_near = false; // in colour
+        for (int k = 0; k < 8; ++k) {
+            constexpr double near = 0.05;
+            const double angle = 0.785 * k;
+            const DrawingPoint beside = {
+                at.x + near * std::cos(angle), at.y + near * std::sin(angle)};
+            is_edge = is_edge || last_at(beside) < last;
+            const auto shown = testing::painted_color(fills, beside);
+            is_near = is_near || (below && std::abs(shown->r - below->r) < 0.2);
+        }
+        edges += is_edge && below ? 1 : 0;
+        others += is_edge && below && !is_near ? 1 : 0;
+    }
+    EXPECT_GT(edges, 100);
+    EXPECT_LE(others, edges / 15); // twice as many where strips reach all sides
 }
 
 TEST(RegionPaint, SeesBendsAlongRowsAndColumns) {

@@ -114,7 +114,7 @@ public:
 private:
     static constexpr double shortest_cut = 1;       ///< pixels
     static constexpr double overlap = 1;            ///< pixels
-    static constexpr double gap = 0.2;              ///< pixels: more than rounding leaves
+    static constexpr double gap = 0.2;              ///< pixels: more than one decimal leaves
     static constexpr int most_cuts = 16;            ///< one after the other
     static constexpr std::uint64_t most_rounds = 6; ///< of places added to samples
 
@@ -347,9 +347,9 @@ private:
     }
 
     /// Where a part on one side of a cut goes on below the other one, which is painted later: a
-    /// strip that begins on its own side of the cut, since if the two only met there, a gap might be
-    /// left, as corners are rounded. It keeps as far from what was painted before the part as from
-    /// the cut: at that edge of the other part, which is smoothed, it would come through.
+    /// strip that begins on its own side of the cut, since if the two only met there, a gap might
+    /// be left, as corners are rounded. It keeps as far from what was painted before the part as
+    /// from the cut: at that edge of the other part, which is smoothed, it would come through.
     std::vector<BorderRing>
     strip_beyond(const std::vector<BorderRing>& rings, const HalfPlane& half) const {
         std::vector<BorderRing> strip =

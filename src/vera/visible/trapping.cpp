@@ -31,17 +31,14 @@ void for_each_border_with_later(
     const auto own = regions.rings(number);
     for (std::size_t i = 0; i < own.size(); ++i) {
         BorderRing points = rings[i];
-        const auto across_side = [&](std::size_t side) {
-            return regions.map().ring_across[own[i].first + side % points.size()];
-        };
-        // The ring may begin amid the border with one neighbour.
         std::size_t begin = 0;
-        while (begin < points.size() && across_side(begin) == across_side(begin + points.size() - 1))
-            ++begin;
-        begin %= points.size();
         const auto across = [&, count = points.size()](std::size_t side) {
             return regions.map().ring_across[own[i].first + (begin + side) % count];
         };
+        // The ring may begin amid the border with one neighbour.
+        while (begin < points.size() && across(0) == across(points.size() - 1))
+            ++begin;
+        begin %= points.size();
         std::ranges::rotate(points, points.begin() + static_cast<std::ptrdiff_t>(begin));
         points.push_back(points.front());
         for (std::size_t side = 0, end = 0; side + 1 < points.size(); side = end) {
