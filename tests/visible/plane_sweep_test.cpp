@@ -110,6 +110,46 @@ TEST(PlaneSweep, SeesLikeTheCellsWhatIsSoCloseThatTheOrderIsNotTransitive) {
     }
 }
 
+/// Lets each triangle have another one of its source beside its first side, or folded onto it.
+void double_sources(std::uint64_t seed, ScreenScene& scene) {
+    const std::size_t count = scene.triangles.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        const ScreenTriangle triangle = scene.triangles[i];
+        const ScreenVertex& other = scene.vertices[(i * 7 + seed) % scene.vertices.size()];
+        const std::int64_t nearness = scene.vertices[triangle.vertices[0]].nearness;
+        const ScreenVertex corner = {other.point, nearness};
+        const auto number = static_cast<std::uint32_t>(scene.vertices.size());
+        scene.vertices.push_back(corner);
+        add_triangle(scene, {triangle.vertices[1], triangle.vertices[0], number}, triangle.source);
+    }
+}
+
+TEST(PlaneSweep, SeesLikeTheCellsSourcesOfSeveralTriangles) {
+    for (std::uint64_t seed = 0; seed < 300 && !HasFailure(); ++seed) {
+        ScreenScene scene = testing::layers(seed, 1 + seed % 40, std::int32_t{1} << (1 + seed % 4));
+        double_sources(seed, scene);
+        expect_same(scene, "layers, seed " + std::to_string(seed));
+    }
+    // Patches of a terrain that are wider than cells, behind a few triangles.
+    for (std::uint64_t seed = 0; seed < 40 && !HasFailure(); ++seed) {
+        ScreenScene scene = testing::terrain(seed, 4 << (seed % 4));
+        for (ScreenVertex& vertex : scene.vertices)
+            vertex.nearness /= 2;
+        for (ScreenTriangle& triangle : scene.triangles)
+            triangle.source /= static_cast<std::uint32_t>(1 + 16 * (seed % 5));
+        const ScreenScene before = testing::scattered(seed, seed % 9, screen_size / 4);
+        const auto first = static_cast<std::uint32_t>(scene.vertices.size());
+        const auto sources = static_cast<std::uint32_t>(scene.triangles.size());
+        for (const ScreenVertex& vertex : before.vertices)
+            scene.vertices.push_back({vertex.point, depth_size / 2 + vertex.nearness / 2});
+        for (const ScreenTriangle& triangle : before.triangles) {
+            const auto& [a, b, c] = triangle.vertices;
+            add_triangle(scene, {first + a, first + b, first + c}, sources + triangle.source);
+        }
+        expect_same(scene, "terrain, seed " + std::to_string(seed));
+    }
+}
+
 TEST(PlaneSweep, SeesLikeTheCellsNothingAndOneTriangle) {
     expect_same({}, "nothing");
     ScreenScene scene;

@@ -210,9 +210,6 @@ void EdgeSweep::find_hidden_parts() {
     // How near, with their margins, what covers but one side is at both ends of the edge.
     std::array<double, 2> to_hide = {-1, -1};
     const std::array<NearnessPlace, 2> ends = {place_at(0), place_at(1)};
-    const auto is_shadow = [&](std::uint32_t triangle) {
-        return may_be_shadow_ && raster_.scene.triangles[triangle].is_shadow();
-    };
     for (const Cover& cover : covers_) {
         if (cover.is_on_both_sides())
             continue;

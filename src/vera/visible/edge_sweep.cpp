@@ -33,9 +33,15 @@ void EdgeSweep::sort_events() {
 /// Before the first event.
 void EdgeSweep::start_events() {
     active_.clear();
-    active_shadows_.clear();
+    ending_shadows_.clear();
     hidden_by_ = no_cover;
     is_hidden_here_ = false;
+    shadows_.clear();
+    if (may_be_shadow_)
+        for (const Cover& cover : covers_)
+            if (is_shadow(cover.triangle))
+                shadows_.expect(raster_.scene.triangles[cover.triangle]);
+    shadows_.start();
 }
 
 bool EdgeSweep::are_at_the_same_place(const Event& a, const Event& b) const {
@@ -49,10 +55,15 @@ void EdgeSweep::change_active(const Event& event) {
         is_hidden_here_ = event.kind == Event::begins;
         return;
     }
-    const bool is_shadow =
-        may_be_shadow_ && raster_.scene.triangles[covers_[event.number].triangle].is_shadow();
-    std::vector<std::uint32_t>& active = is_shadow ? active_shadows_ : active_;
-    if (event.kind == Event::begins)
+    const Cover& cover = covers_[event.number];
+    const bool begins = event.kind == Event::begins;
+    if (may_be_shadow_)
+        shadows_.change(raster_.scene.triangles[cover.triangle], cover.sides, begins ? 1 : -1);
+    const bool ends_beside = is_shadow(cover.triangle);
+    if (ends_beside && cover.is_on_both_sides())
+        return;
+    std::vector<std::uint32_t>& active = ends_beside ? ending_shadows_ : active_;
+    if (begins)
         active.push_back(event.number);
     else
         active.erase(std::find(active.begin(), active.end(), event.number));
@@ -77,57 +88,16 @@ bool EdgeSweep::is_still_hidden() const {
     return is_there;
 }
 
-/// Whether a shadow ends at the edge: other lights may reach what is seen there on its two sides.
-/// Not where another shadow of the same light on the same source goes on.
-bool EdgeSweep::ends_a_shadow() const {
-    const auto shadow = [&](std::uint32_t i) -> const ScreenTriangle& {
-        return raster_.scene.triangles[covers_[i].triangle];
-    };
-    const auto is_there = [&](std::uint32_t source) {
-        return std::any_of(active_.begin(), active_.end(), [&](std::uint32_t i) {
-            return source_of(covers_[i].triangle) == source;
-        });
-    };
-    const auto goes_on = [&](std::uint32_t i) {
-        return std::any_of(active_shadows_.begin(), active_shadows_.end(), [&](std::uint32_t j) {
-            return (covers_[j].sides & ~covers_[i].sides) != 0 && shadow(j).light == shadow(i).light
-                && shadow(j).source == shadow(i).source;
-        });
-    };
-    return std::any_of(active_shadows_.begin(), active_shadows_.end(), [&](std::uint32_t i) {
-        return !covers_[i].is_on_both_sides() && is_there(shadow(i).source) && !goes_on(i);
-    });
-}
-
 /// Of one source and the shadows on it, which were added: whether one ends at the edge anywhere on
 /// the source. Where many overlap, most do not, and nothing else needs to be compared with them.
 bool EdgeSweep::ends_a_shadow_somewhere() {
     sort_events();
-    // Of each light, how many shadows cover what is on the left and on the right.
-    std::array<std::array<std::int32_t, 2>, most_lights_of_a_set> covering = {};
-    int parted = 0;   // lights that reach but one side
-    int surfaces = 0; // of the source
-    const auto change = [&](const Event& event) {
-        const Cover& cover = covers_[event.number];
-        const ScreenTriangle& triangle = raster_.scene.triangles[cover.triangle];
-        const int more = event.kind == Event::begins ? 1 : -1;
-        if (!triangle.is_shadow()) {
-            surfaces += more;
-            return;
-        }
-        std::array<std::int32_t, 2>& sides = covering[triangle.light];
-        const auto is_parted = [&] { return (sides[0] > 0) != (sides[1] > 0) ? 1 : 0; };
-        parted -= is_parted();
-        sides[0] += (cover.sides & left_side) != 0 ? more : 0;
-        sides[1] += (cover.sides & right_side) != 0 ? more : 0;
-        parted += is_parted();
-    };
+    start_events();
     for (std::size_t i = 0; i < events_.size();) {
         const Event& here = events_[i];
         for (; i < events_.size() && are_at_the_same_place(here, events_[i]); ++i)
-            if (events_[i].kind != Event::touches)
-                change(events_[i]);
-        if (parted > 0 && surfaces > 0)
+            change_active(events_[i]);
+        if (shadows_.is_any_parted())
             return true;
     }
     return false;
@@ -197,13 +167,7 @@ EdgeSweep::Seen EdgeSweep::seen(const Cover* nearest, std::uint8_t side) const {
     if (nearest == nullptr)
         return {};
     const std::uint32_t source = source_of(nearest->triangle);
-    Seen seen = {nearest->triangle, raster_.scene.unlit_of(source)};
-    for (const std::uint32_t i : active_shadows_) {
-        const ScreenTriangle& shadow = raster_.scene.triangles[covers_[i].triangle];
-        if ((covers_[i].sides & side) != 0 && shadow.source == source)
-            seen.unlit |= LightSet{1} << shadow.light;
-    }
-    return seen;
+    return {nearest->triangle, raster_.scene.unlit_of(source) | shadows_.lights(source, side)};
 }
 
 /// Of several edges in one place that what is seen beside it has, one speaks for all: of those of
@@ -219,7 +183,7 @@ bool EdgeSweep::speaks_here(
         for (const std::uint32_t i : active_)
             first = std::min(first, covers_[i].edge);
     if (left == right && left != nullptr)
-        for (const std::uint32_t i : active_shadows_)
+        for (const std::uint32_t i : ending_shadows_)
             if (source_of(covers_[i].triangle) == source_of(left->triangle))
                 first = std::min(first, covers_[i].edge);
     return edge == first;
@@ -282,8 +246,9 @@ void EdgeSweep::follow(std::uint32_t edge, VisiblePieces& result) {
         Piece piece = {place_of(here)};
         if (next < events_.size() && !is_hidden_here_) {
             const Hiding hiding = hiding_between(here.value, events_[next].value);
+            // Where a shadow ends, other lights may reach what is seen on the two sides.
             const auto [left, right] =
-                seen_between(here.value, events_[next].value, hiding, ends_a_shadow());
+                seen_between(here.value, events_[next].value, hiding, shadows_.is_any_parted());
             if (speaks_here(edge, left, right, hiding)) {
                 piece.left = seen(left, left_side);
                 piece.right = seen(right, right_side);

@@ -6,6 +6,7 @@
 #include "vera/visible/cells.h"
 #include "vera/visible/seen_beside.h"
 #include "vera/visible/shadow_cells.h"
+#include "vera/visible/shadows_beside.h"
 
 #include <array>
 #include <cstddef>
@@ -139,7 +140,6 @@ private:
     bool are_at_the_same_place(const Event& a, const Event& b) const;
     void change_active(const Event& event);
     bool has_one_sided() const;
-    bool ends_a_shadow() const;
     bool ends_a_shadow_somewhere();
     void find_seen_sources(bool is_of_surfaces);
     Seen seen(const Cover* nearest, std::uint8_t side) const;
@@ -169,6 +169,11 @@ private:
         return triangle == no_triangle ? no_source : raster_.scene.triangles[triangle].source;
     }
 
+    bool is_shadow(std::uint32_t triangle) const {
+        return may_be_shadow_ && triangle != no_triangle
+            && raster_.scene.triangles[triangle].is_shadow();
+    }
+
     const CellRaster& raster_;
     bool may_be_shadow_; ///< a triangle
     SeenBeside seen_;
@@ -181,7 +186,8 @@ private:
     std::vector<SegmentPlace> touches_;             ///< where a triangle has a corner on the edge
     std::vector<Event> events_;
     std::vector<std::uint32_t> active_; ///< covers by surfaces
-    std::vector<std::uint32_t> active_shadows_;
+    ShadowsBeside shadows_;
+    std::vector<std::uint32_t> ending_shadows_; ///< active covers of one side by shadows
     std::vector<std::uint32_t> seen_sources_;
     std::size_t first_hidden_ = 0;       ///< of the covers by no triangle
     std::size_t last_hidden_ = 0;        ///< behind them
