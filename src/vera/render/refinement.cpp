@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 
 namespace vera {
@@ -54,6 +53,14 @@ const Seen& commonest(const Window& window) {
         return false;
     });
     return *candidate;
+}
+
+/// What shows no surface that anything else shows, and stands for a centre until its ray is sent.
+Seen unknown_center() {
+    Seen unknown;
+    unknown.found = true;
+    unknown.face.piece = no_piece;
+    return unknown;
 }
 
 template <typename Window>
@@ -152,7 +159,7 @@ QueryRay TileRefiner::center_ray(std::size_t center) const {
 
 void TileRefiner::see_all_centers() {
     // Colours are compared across the tile's border, by one pixel; farther out it matters only
-    // what is seen.
+    // what is seen, and only where something looks thin without it.
     const std::size_t stride = tile_.width + 2 * frame;
     constexpr std::size_t compared = 1;
     center_rays_.find(picture_.raster, tile_, rays_, compared);
@@ -171,29 +178,36 @@ void TileRefiner::see_all_centers() {
         center.color = clamped(colors_[i]);
         is_known_[targets_[i]] = 1;
     }
-    targets_.resize(centers_.size());
-    std::iota(targets_.begin(), targets_.end(), std::size_t{0});
-    see_unknown_centers();
+    for (std::size_t center = 0; center < centers_.size(); ++center)
+        if (is_known_[center] == 0)
+            centers_[center] = unknown_center();
 
+    colors_.resize(tile_.width);
     for (std::size_t y = 0; y < tile_.height; ++y) {
-        colors_.clear();
         for (std::size_t x = 0; x < tile_.width; ++x)
-            colors_.push_back(centers_[center_of(y * tile_.width + x)].color);
+            colors_[x] = centers_[center_of(y * tile_.width + x)].color;
         develop(colors_, picture_.image, tile_.x, tile_.y + y);
     }
 }
 
-void TileRefiner::see_unknown_centers() {
+void TileRefiner::see_centers_around(std::span<const std::size_t> pixels) {
     rays_.clear();
-    std::size_t unknown = 0;
-    for (const std::size_t center : targets_) {
-        if (is_known_[center] != 0)
-            continue;
-        is_known_[center] = 1;
-        targets_[unknown++] = center;
-        rays_.push_back(center_ray(center));
+    targets_.clear();
+    const std::size_t stride = tile_.width + 2 * frame;
+    for (const std::size_t pixel : pixels) {
+        const std::size_t corner = center_of(pixel) - frame * stride - frame;
+        for (std::size_t row = 0; row < Window::side; ++row)
+            for (std::size_t column = 0; column < Window::side; ++column) {
+                const std::size_t center = corner + row * stride + column;
+                if (is_known_[center] != 0)
+                    continue;
+                is_known_[center] = 1;
+                targets_.push_back(center);
+                rays_.push_back(center_ray(center));
+            }
     }
-    targets_.resize(unknown);
+    if (rays_.empty())
+        return;
     probe();
     for (std::size_t i = 0; i < targets_.size(); ++i)
         centers_[targets_[i]] = seen_by_ray(i);
@@ -208,12 +222,17 @@ void TileRefiner::probe() {
 }
 
 void TileRefiner::find_edges() {
-    for (std::size_t pixel = 0; pixel < pixels_.size(); ++pixel) {
+    edges_.clear();
+    for_each_pixel({0, 0, tile_.width, tile_.height}, [&](std::size_t x, std::size_t y) {
+        const std::size_t pixel = y * tile_.width + x;
+        if (differs(window(pixel)))
+            edges_.push_back(pixel);
+    });
+    see_centers_around(edges_);
+    for (const std::size_t pixel : edges_) {
         const Window around = window(pixel);
-        if (differs(around))
-            want(
-                pixel,
-                is_thin(around, around[middle]) ? refinement_of_thin(around) : Refinement::edge);
+        want(
+            pixel, is_thin(around, around[middle]) ? refinement_of_thin(around) : Refinement::edge);
     }
 }
 
@@ -256,10 +275,21 @@ void TileRefiner::send_probes() {
         targets_.push_back(pixel);
     });
     probe();
+    thin_.clear();
+    thin_seen_.clear();
     for (std::size_t i = 0; i < rays_.size(); ++i) {
-        const Window around = window(targets_[i]);
-        if (is_thin(around, seen_by_ray(i)))
-            want(targets_[i], refinement_of_thin(around));
+        const Seen one = seen_by_ray(i);
+        if (!is_thin(window(targets_[i]), one))
+            continue;
+        thin_.push_back(targets_[i]);
+        thin_seen_.push_back(one);
+    }
+    // Centres that are not known yet may show more of it.
+    see_centers_around(thin_);
+    for (std::size_t i = 0; i < thin_.size(); ++i) {
+        const Window around = window(thin_[i]);
+        if (is_thin(around, thin_seen_[i]))
+            want(thin_[i], refinement_of_thin(around));
     }
 }
 
@@ -290,6 +320,7 @@ void TileRefiner::want_neighbour(std::size_t x, std::size_t y, Refinement refine
 void TileRefiner::refine_pending() {
     // Pixels are taken as they come up, as many at a time as make a generation of rays.
     for (std::size_t next = 0; next < pending_.size();) {
+        const std::size_t first = next;
         jobs_.clear();
         std::size_t ray_count = 0;
         for (; next < pending_.size() && ray_count < picture_.traced.generation_size; ++next) {
@@ -307,7 +338,7 @@ void TileRefiner::refine_pending() {
             ray_count += wanted - pixel.shaded;
             pixel.shaded = wanted;
         }
-        see_centers_around(jobs_);
+        see_centers_around(std::span(pending_).subspan(first, next - first));
         for (const Job& job : jobs_)
             if (job.first_shaded == 0)
                 begin_strata(job.pixel);
@@ -347,18 +378,6 @@ void TileRefiner::end_strata(Pixel& pixel) {
     if (pixel.strata != PixelStrata::none)
         strata_.end(pixel.strata);
     pixel.strata = PixelStrata::none;
-}
-
-void TileRefiner::see_centers_around(std::span<const Job> jobs) {
-    targets_.clear();
-    const std::size_t stride = tile_.width + 2 * frame;
-    for (const Job& job : jobs) {
-        const std::size_t corner = center_of(job.pixel) - frame * stride - frame;
-        for (std::size_t row = 0; row < Window::side; ++row)
-            for (std::size_t column = 0; column < Window::side; ++column)
-                targets_.push_back(corner + row * stride + column);
-    }
-    see_unknown_centers();
 }
 
 void TileRefiner::trace_samples() {

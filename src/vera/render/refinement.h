@@ -2,6 +2,7 @@
 #pragma once
 
 #include "vera/image/image.h"
+#include "vera/render/buffer.h"
 #include "vera/render/center_rays.h"
 #include "vera/render/generations.h"
 #include "vera/render/pixel_strata.h"
@@ -122,8 +123,7 @@ private:
     void find_edges();
     void send_probes();
     void refine_pending();
-    void see_centers_around(std::span<const Job> jobs);
-    void see_unknown_centers();
+    void see_centers_around(std::span<const std::size_t> pixels);
     void probe();
     void trace_samples();
     void begin_strata(std::size_t number);
@@ -160,6 +160,9 @@ private:
     std::vector<Seen> centers_;          ///< of the tile and a frame of two pixels around it
     std::vector<std::uint8_t> is_known_; ///< which of them
     std::vector<Pixel> pixels_;
+    std::vector<std::size_t> edges_; ///< pixels whose centres differ from their neighbours'
+    std::vector<std::size_t> thin_;  ///< pixels of which the probes have seen something thin
+    std::vector<Seen> thin_seen_;
     std::vector<std::size_t> pending_;
     std::vector<Job> jobs_;
     PixelStrata strata_;
@@ -169,9 +172,9 @@ private:
     std::vector<QueryRay> rays_;
     std::vector<std::size_t> targets_; ///< what the rays are for
     std::vector<Sample> samples_;      ///< of which the rays are
-    std::vector<Hit> hits_;
-    std::vector<SurfacePoint> surfaces_;
-    std::vector<Color> colors_;
+    Buffer<Hit> hits_;
+    Buffer<SurfacePoint> surfaces_;
+    Buffer<Color> colors_;
 };
 
 } // namespace vera
