@@ -63,11 +63,6 @@ Seen unknown_center() {
     return unknown;
 }
 
-template <typename Window>
-Refinement refinement_of_thin(const Window& window) {
-    const bool is_plain = shows(window, commonest(window), 13);
-    return is_plain ? Refinement::thin_alone : Refinement::thin;
-}
 
 } // namespace
 
@@ -232,7 +227,7 @@ void TileRefiner::find_edges() {
     for (const std::size_t pixel : edges_) {
         const Window around = window(pixel);
         want(
-            pixel, is_thin(around, around[middle]) ? refinement_of_thin(around) : Refinement::edge);
+            pixel, is_thin(around, around[middle]) ? refinement_of_thin(pixel) : Refinement::edge);
     }
 }
 
@@ -286,11 +281,19 @@ void TileRefiner::send_probes() {
     }
     // Centres that are not known yet may show more of it.
     see_centers_around(thin_);
-    for (std::size_t i = 0; i < thin_.size(); ++i) {
-        const Window around = window(thin_[i]);
-        if (is_thin(around, thin_seen_[i]))
-            want(thin_[i], refinement_of_thin(around));
+    for (std::size_t i = 0; i < thin_.size(); ++i)
+        if (is_thin(window(thin_[i]), thin_seen_[i]))
+            want(thin_[i], refinement_of_thin(thin_[i]));
+}
+
+Refinement TileRefiner::refinement_of_thin(std::size_t pixel) {
+    Refinement& found = pixels_[pixel].of_thin;
+    if (found == Refinement::center) {
+        const Window around = window(pixel);
+        const bool is_plain = shows(around, commonest(around), 13);
+        found = is_plain ? Refinement::thin_alone : Refinement::thin;
     }
+    return found;
 }
 
 void TileRefiner::want(std::size_t pixel, Refinement refinement) {
@@ -480,7 +483,7 @@ void TileRefiner::follow_thin_things() {
     for (const std::size_t pixel : followed_) {
         const std::size_t x = tile_.x + pixel % tile_.width;
         const std::size_t y = tile_.y + pixel / tile_.width;
-        const Refinement refinement = refinement_of_thin(window(pixel));
+        const Refinement refinement = refinement_of_thin(pixel);
         if (x > 0)
             look_along_side(pixel, refinement, x - 1, y);
         if (x + 1 < picture_.raster.width)

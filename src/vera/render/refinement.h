@@ -87,6 +87,7 @@ private:
     struct Pixel {
         Refinement wanted = Refinement::center;
         Refinement reached = Refinement::center;
+        Refinement of_thin = Refinement::center; ///< refinement_of_thin(), where that was asked
         bool is_edge = false;      ///< a neighbour's centre shows another surface
         bool is_queued = false;    ///< it is pending
         bool is_followed = false;  ///< it was asked where its thin things go on
@@ -138,6 +139,9 @@ private:
     void develop_pixel(std::size_t number);
     Seen seen_by_ray(std::size_t ray) const;
 
+    /// How far the pixel is refined if something thin is seen in it; the centres around it must be
+    /// known.
+    Refinement refinement_of_thin(std::size_t pixel);
     void want(std::size_t pixel, Refinement refinement);
     void queue(std::size_t pixel);
     void want_neighbour(std::size_t x, std::size_t y, Refinement refinement);
