@@ -63,7 +63,6 @@ Seen unknown_center() {
     return unknown;
 }
 
-
 } // namespace
 
 TileRefiner::TileRefiner(const RefinedPicture& picture)
@@ -226,8 +225,7 @@ void TileRefiner::find_edges() {
     see_centers_around(edges_);
     for (const std::size_t pixel : edges_) {
         const Window around = window(pixel);
-        want(
-            pixel, is_thin(around, around[middle]) ? refinement_of_thin(pixel) : Refinement::edge);
+        want(pixel, is_thin(around, around[middle]) ? refinement_of_thin(pixel) : Refinement::edge);
     }
 }
 

@@ -88,10 +88,10 @@ private:
         Refinement wanted = Refinement::center;
         Refinement reached = Refinement::center;
         Refinement of_thin = Refinement::center; ///< refinement_of_thin(), where that was asked
-        bool is_edge = false;      ///< a neighbour's centre shows another surface
-        bool is_queued = false;    ///< it is pending
-        bool is_followed = false;  ///< it was asked where its thin things go on
-        std::uint32_t shaded = 0;  ///< the first samples, which have a colour
+        bool is_edge = false;                    ///< a neighbour's centre shows another surface
+        bool is_queued = false;                  ///< it is pending
+        bool is_followed = false;                ///< it was asked where its thin things go on
+        std::uint32_t shaded = 0;                ///< the first samples, which have a colour
         std::uint32_t covered = 0; ///< the first samples, of which it is known what they meet
         std::size_t strata = PixelStrata::none;
     };
