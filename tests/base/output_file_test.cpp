@@ -185,6 +185,24 @@ TEST_F(OutputFileTest, CanBeWrittenOverInTheMiddle) {
     EXPECT_EQ(content(target), "012ab56789end");
 }
 
+TEST_F(OutputFileTest, OpensAGapBeforeAllThatWasWritten) {
+    for (const std::size_t written : {0U, 1U, 262143U, 262144U, 262145U, 1000000U})
+        for (const std::size_t size : {0U, 1U, 5U, 262144U, 700000U}) {
+            std::string behind(written, '.');
+            for (std::size_t i = 0; i < written; ++i)
+                behind[i] = static_cast<char>('a' + i * i % 23);
+            const std::string before(size, '-');
+            OutputFile file(target);
+            file.write(behind);
+            file.open_gap_before_all(size);
+            file.write_at(0, std::as_bytes(std::span(before)));
+            file.write("end");
+            file.commit();
+            EXPECT_TRUE(content(target) == before + behind + "end")
+                << size << " bytes before " << written;
+        }
+}
+
 TEST_F(OutputFileTest, HasThePermissionsThatTheUmaskLeaves) {
     const mode_t before = umask(027);
     OutputFile file(target);

@@ -5,6 +5,7 @@
 #include "vera/base/free_room.h"
 #include "vera/base/partial_file.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <memory>
@@ -83,6 +84,21 @@ fs::path followed(fs::path path, const std::string& name) {
         path = next.is_absolute() ? next : path.parent_path() / next;
     }
     detail::throw_unwritable(name, ELOOP);
+}
+
+/// Reads all bytes from the position on, or throws.
+void read_fully(
+    int descriptor, std::span<std::byte> bytes, std::uint64_t position, const std::string& name) {
+    while (!bytes.empty()) {
+        const ssize_t count =
+            pread(descriptor, bytes.data(), bytes.size(), static_cast<off_t>(position));
+        if (count < 0 && errno == EINTR)
+            continue;
+        if (count <= 0)
+            detail::throw_unwritable(name, count < 0 ? errno : EIO);
+        bytes = bytes.subspan(static_cast<std::size_t>(count));
+        position += static_cast<std::uint64_t>(count);
+    }
 }
 
 /// Writes everything or throws; at a position if one is given, else where the file stands.
@@ -230,6 +246,24 @@ void OutputFile::write_at(std::uint64_t position, std::span<const std::byte> byt
     VERA_CHECK(seekable());
     flush();
     write_fully(target_->descriptor(), bytes, position, name_);
+}
+
+void OutputFile::open_gap_before_all(std::uint64_t size) {
+    VERA_CHECK(seekable());
+    flush();
+    const int file = target_->descriptor();
+    const off_t end = lseek(file, 0, SEEK_CUR); // where write() goes on
+    if (end < 0)
+        detail::throw_unwritable(name_, errno);
+    std::vector<std::byte> moved(buffer_size);
+    for (auto left = static_cast<std::uint64_t>(end); left > 0;) { // from behind
+        const auto part = std::span(moved).first(std::min<std::uint64_t>(left, moved.size()));
+        left -= part.size();
+        read_fully(file, part, left, name_);
+        write_fully(file, part, left + size, name_);
+    }
+    if (lseek(file, end + static_cast<off_t>(size), SEEK_SET) < 0)
+        detail::throw_unwritable(name_, errno);
 }
 
 void OutputFile::finish() {

@@ -44,6 +44,11 @@ public:
     /// The position of write() stays as it is.
     void write_at(std::uint64_t position, std::span<const std::byte> bytes);
 
+    /// Moves all that was written behind a gap of that size, for what stands before it and is known
+    /// but after it. What the gap holds means nothing until write_at() fills it. Only where
+    /// seekable().
+    void open_gap_before_all(std::uint64_t size);
+
     /// Nothing more will be written: all that was is on the disk when this returns, and the file is
     /// closed but has not appeared. Many may wait so for their commit, in a folder that is open
     /// once for all.

@@ -167,36 +167,43 @@ std::string UniqueIds::take(std::string_view wanted) {
         id.insert(0, 1, '_');
 
     // From the number on that was given last.
-    std::uint64_t number = last_number_of(id);
+    std::uint32_t number = last_number_of(id);
     std::string unique = id;
     while (number > 0 && last_number_of(unique) > 0)
         unique = id + "-" + std::to_string(++number);
-    set_last_number(unique, std::max<std::uint64_t>(last_number_of(unique), 1));
-    set_last_number(id, std::max<std::uint64_t>(number, 1));
+    set_last_number(unique, std::max<std::uint32_t>(last_number_of(unique), 1));
+    set_last_number(id, std::max<std::uint32_t>(number, 1));
     return unique;
 }
 
-std::uint64_t UniqueIds::last_number_of(std::string_view id) const {
-    return taken_[place_of(hash_of(id))].last_number;
+std::uint32_t UniqueIds::last_number_of(std::string_view id) const {
+    return last_numbers_[place_of(hash_of(id))];
 }
 
-void UniqueIds::set_last_number(std::string_view id, std::uint64_t number) {
-    Taken& taken = taken_[place_of(hash_of(id))];
-    const bool is_new = taken.last_number == 0;
-    taken = {hash_of(id), number};
-    if (!is_new || 2 * ++count_ <= taken_.size())
+void UniqueIds::set_last_number(std::string_view id, std::uint32_t number) {
+    const std::uint64_t hash = hash_of(id);
+    const std::size_t place = place_of(hash);
+    const bool is_new = last_numbers_[place] == 0;
+    hashes_[place] = hash;
+    last_numbers_[place] = number;
+    const std::size_t size = hashes_.size();
+    if (!is_new || ++count_ <= size - size / 4)
         return;
-    const std::vector<Taken> before = std::exchange(taken_, std::vector<Taken>(2 * taken_.size()));
-    for (const Taken& one : before)
-        if (one.last_number > 0)
-            taken_[place_of(one.hash)] = one;
+    const auto hashes = std::exchange(hashes_, std::vector<std::uint64_t>(2 * size));
+    const auto numbers = std::exchange(last_numbers_, std::vector<std::uint32_t>(2 * size));
+    for (std::size_t i = 0; i < size; ++i)
+        if (numbers[i] > 0) {
+            const std::size_t to = place_of(hashes[i]);
+            hashes_[to] = hashes[i];
+            last_numbers_[to] = numbers[i];
+        }
 }
 
 /// Where the id of that hash stands, or would.
 std::size_t UniqueIds::place_of(std::uint64_t hash) const {
-    const std::size_t last = taken_.size() - 1; // a power of two less one
+    const std::size_t last = hashes_.size() - 1; // a power of two less one
     std::size_t place = hash & last;
-    while (taken_[place].last_number > 0 && taken_[place].hash != hash)
+    while (last_numbers_[place] > 0 && hashes_[place] != hash)
         place = (place + 1) & last;
     return place;
 }

@@ -31,21 +31,17 @@ public:
     std::string take(std::string_view wanted);
 
 private:
-    /// Of an id that was given or asked for.
-    struct Taken {
-        std::uint64_t hash = 0;
-        std::uint64_t last_number = 0; ///< behind the last one made of it, 1 for none; 0: of no id
-    };
-
-    std::uint64_t last_number_of(std::string_view id) const;
-    void set_last_number(std::string_view id, std::uint64_t number);
+    std::uint32_t last_number_of(std::string_view id) const;
+    void set_last_number(std::string_view id, std::uint32_t number);
     std::size_t place_of(std::uint64_t hash) const;
 
-    /// By hashes, each at its place or, where that is taken, at one of the next ones (open
-    /// addressing); at most half of them are taken. A drawing has as many ids as faces that are
-    /// seen: they themselves would take five times the memory. Two with one hash would be told
-    /// apart by a number that neither needs.
-    std::vector<Taken> taken_ = std::vector<Taken>(16);
+    /// Of the ids that were given or asked for, each at its place or, where that is taken, at one
+    /// of the next ones (open addressing); a quarter of the places at least is free. A drawing has
+    /// as many ids as regions that are seen: they themselves would take ten times the memory. Two
+    /// with one hash would be told apart by a number that neither needs.
+    std::vector<std::uint64_t> hashes_ = std::vector<std::uint64_t>(16);
+    /// Behind the last one made of each, 1 for none; 0: the place is free.
+    std::vector<std::uint32_t> last_numbers_ = std::vector<std::uint32_t>(16);
     std::size_t count_ = 0;
 };
 

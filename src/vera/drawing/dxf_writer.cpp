@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "vera/base/long_loop.h"
 #include "vera/base/progress_part.h"
 #include "vera/drawing/document_text.h"
 #include "vera/drawing/elliptic_arc.h"
@@ -317,11 +316,10 @@ private:
         begin_section("ENTITIES");
         for (const LineLayer& layer : layers_.lines) {
             const std::string_view name = name_of(layer.style.line_class);
-            const LongLoop loop(layer.lines.size(), stages_.next(1), cancel_, 256);
-            for (std::size_t i = 0; i < layer.lines.size(); ++i) {
-                loop.turn(i);
-                write_path(layer.lines[i], name);
-            }
+            for_each_line(
+                drawing_, layer, lattice_, stages_.next(1), cancel_, [&](const SnappedPath& line) {
+                    write_path(line, name);
+                });
         }
         end_section();
     }

@@ -10,7 +10,6 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
-#include <optional>
 #include <span>
 #include <utility>
 
@@ -31,24 +30,17 @@ std::string layer_name(LineClass line_class) {
     return name + " lines";
 }
 
+/// Of the classes of which a line is left after rounding: the first one most often.
 std::vector<LineLayer> line_layers(
-    std::span<const Stroke> strokes,
-    const DrawingSettings& settings,
-    const Lattice& lattice,
-    const Progress& progress,
-    const CancelFlag* cancel) {
-    std::array<std::vector<SnappedPath>, line_class_names.size()> of_class;
-    const LongLoop loop(strokes.size(), progress, cancel);
-    for (std::size_t i = 0; i < strokes.size(); ++i) {
-        loop.turn(i);
-        if (std::optional<SnappedPath> line = snapped_line(strokes[i], lattice))
-            of_class[static_cast<std::size_t>(strokes[i].line_class)].push_back(std::move(*line));
-    }
+    std::span<const Stroke> strokes, const DrawingSettings& settings, const Lattice& lattice) {
+    std::array<bool, line_class_names.size()> has_lines = {};
+    for (const Stroke& stroke : strokes)
+        if (bool& has_one = has_lines[static_cast<std::size_t>(stroke.line_class)]; !has_one)
+            has_one = snapped_line(stroke, lattice).has_value();
     std::vector<LineLayer> layers;
-    for (std::size_t i = 0; i < of_class.size(); ++i)
-        if (const auto line_class = static_cast<LineClass>(i); !of_class[i].empty())
-            layers.push_back(
-                {layer_name(line_class), style_of(line_class, settings), std::move(of_class[i])});
+    for (std::size_t i = 0; i < has_lines.size(); ++i)
+        if (const auto line_class = static_cast<LineClass>(i); has_lines[i])
+            layers.push_back({layer_name(line_class), style_of(line_class, settings)});
     return layers;
 }
 
@@ -77,7 +69,7 @@ Layers layers(
     LaterOutlines later,
     const Progress& progress,
     const CancelFlag* cancel) {
-    StageProgress stages(progress, 3);
+    StageProgress stages(progress, 2);
     Layers result;
     const LaterFills& others = drawing.later_fills;
     for (std::size_t i = 0; later == LaterOutlines::at_once && i < others.blocks; ++i)
@@ -104,7 +96,7 @@ Layers layers(
     // Of the first area most often: it takes no time.
     for (std::size_t i = 0; !result.is_filled && i < drawing.areas.count(); ++i)
         result.is_filled = !snapped_rings(outline_of(drawing.areas, i), lattice).empty();
-    result.lines = line_layers(drawing.strokes, settings, lattice, stages.next(1), cancel);
+    result.lines = line_layers(drawing.strokes, settings, lattice);
     return result;
 }
 

@@ -3,6 +3,7 @@
 // layers, and the page that it stands on.
 #pragma once
 
+#include "vera/base/long_loop.h"
 #include "vera/drawing/drawing_file.h"
 #include "vera/drawing/seams.h"
 #include "vera/drawing/snapped_path.h"
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -23,11 +25,10 @@ struct FilledPath {
     std::vector<SnappedPath> seams; ///< the lines that cover them; none when none are to
 };
 
-/// The lines of one class.
+/// The lines of one class, of which there is one at least: see for_each_line().
 struct LineLayer {
     std::string name; ///< for people: "Hidden lines"
     LineStyle style;
-    std::vector<SnappedPath> lines;
 };
 
 /// The drawing in the order in which it is painted: each outline and right behind it the lines that
@@ -71,6 +72,27 @@ struct AreaPaths {
 /// Of the areas from number first up to last.
 AreaPaths
 area_paths(const SharedAreas& areas, const Lattice& lattice, std::size_t first, std::size_t last);
+
+/// Calls visit(line) for each of the layer's lines of which something is left after rounding, one
+/// after the other, so that no list of them takes room. Throws Cancelled.
+template <typename Visit>
+void for_each_line(
+    const Drawing& drawing,
+    const LineLayer& layer,
+    const Lattice& lattice,
+    const Progress& progress,
+    const CancelFlag* cancel,
+    const Visit& visit) {
+    const LongLoop loop(drawing.strokes.size(), progress, cancel, 256);
+    for (std::size_t i = 0; i < drawing.strokes.size(); ++i) {
+        loop.turn(i);
+        const Stroke& stroke = drawing.strokes[i];
+        if (stroke.line_class != layer.style.line_class)
+            continue;
+        if (const std::optional<SnappedPath> line = snapped_line(stroke, lattice))
+            visit(*line);
+    }
+}
 
 constexpr std::size_t block_of_fills = 4096;
 

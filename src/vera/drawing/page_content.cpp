@@ -257,11 +257,10 @@ std::string page_content(
         ++number;
         const LineStyle& style = layer.style;
         page.set_pen(style.width, style.dashes.empty() ? round_cap : butt_cap, style.dashes);
-        const LongLoop loop(layer.lines.size(), stages.next(1), cancel, 256);
-        for (std::size_t i = 0; i < layer.lines.size(); ++i) {
-            loop.turn(i);
-            page.stroke({&layer.lines[i], 1}, style.color);
-        }
+        for_each_line(
+            drawing, layer, lattice, stages.next(1), cancel, [&](const SnappedPath& line) {
+                page.stroke({&line, 1}, style.color);
+            });
         page.write(marks.end_layer);
     }
     page.end_page();

@@ -11,10 +11,12 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -73,24 +75,15 @@ public:
 
     void write() {
         const LaterFills& later = drawing_.later_fills;
-        if (later.blocks > 0 && later.have_gradients)
-            hold_fills();
-        else
+        if (later.blocks == 0 || !later.have_gradients) {
             has_seams_ = has_seams_ || have_later_seams();
-        write_head();
-        write_style();
-        write_gradients();
-        if (drawing_.background)
-            text_ += fmt::format(
-                "<rect id=\"{}\" width=\"{}\" height=\"{}\" fill=\"{}\"/>\n",
-                background_id_,
-                length(drawing_.width),
-                length(drawing_.height),
-                css_color(*drawing_.background));
-        if (is_held_)
-            write_parts(held_);
-        else
+            write_before_fills();
             write_fills();
+        } else if (file_ != nullptr && file_->seekable()) {
+            write_fills_first();
+        } else {
+            hold_fills();
+        }
         for (std::size_t i = 0; i < layers_.lines.size(); ++i)
             write_lines(layers_.lines[i], line_ids_[i]);
         text_ += "</svg>\n";
@@ -118,15 +111,50 @@ private:
         return false;
     }
 
-    /// The fills of which some are made but now, as text: the gradients that they refer to stand
-    /// before them.
+    void write_before_fills() {
+        write_head();
+        write_style();
+        write_gradients();
+        if (drawing_.background)
+            text_ += fmt::format(
+                "<rect id=\"{}\" width=\"{}\" height=\"{}\" fill=\"{}\"/>\n",
+                background_id_,
+                length(drawing_.width),
+                length(drawing_.height),
+                css_color(*drawing_.background));
+    }
+
+    /// The gradients that outlines refer to stand before them, and are known when all outlines were
+    /// made. So these go into the file, and move behind what then is put before them.
+    void write_fills_first() {
+        write_fills();
+        pass_on();
+        is_holding_ = true;
+        write_before_fills();
+        pass_on();
+        is_holding_ = false;
+        std::uint64_t size = 0;
+        for (const std::string& part : held_)
+            size += part.size();
+        file_->open_gap_before_all(size);
+        std::uint64_t place = 0;
+        for (std::string& part : held_) {
+            file_->write_at(place, std::as_bytes(std::span(part)));
+            place += part.size();
+            std::string().swap(part);
+        }
+    }
+
+    /// The same where nothing can be moved: the outlines wait as text.
     void hold_fills() {
         std::string before = std::exchange(text_, {});
-        is_held_ = is_holding_ = true;
+        is_holding_ = true;
         write_fills();
         pass_on();
         is_holding_ = false;
         text_ = std::move(before);
+        write_before_fills();
+        write_parts(held_);
     }
 
     /// And forgets each when it is written.
@@ -222,17 +250,21 @@ private:
     }
 
     /// Of a gradient, which is written when its first outline comes.
-    const std::string& id_of(const Gradient& gradient) {
+    std::string id_of(const Gradient& gradient) {
         const auto [number, is_new] = gradients_.of(gradient);
-        if (is_new) {
-            gradient_ids_.push_back(ids_.take(fmt::format("g{}", number + 1)));
-            write_gradient(gradient, gradient_ids_.back());
-            if (gradients_text_.size() > most_text_of_gradients) {
-                held_gradients_.emplace_back(gradients_text_);
-                gradients_text_.clear();
-            }
+        std::string id = fmt::format("g{}", number + 1);
+        if (!is_new) {
+            const auto other = other_gradient_ids_.find(number);
+            return other == other_gradient_ids_.end() ? id : other->second;
         }
-        return gradient_ids_[number];
+        if (const std::string unique = ids_.take(id); unique != id)
+            id = other_gradient_ids_[number] = unique;
+        write_gradient(gradient, id);
+        if (gradients_text_.size() > most_text_of_gradients) {
+            held_gradients_.emplace_back(gradients_text_);
+            gradients_text_.clear();
+        }
+        return id;
     }
 
     void write_gradient(const Gradient& gradient, const std::string& id) {
@@ -412,13 +444,12 @@ private:
             "inkscape:label=\"{1}\">\n",
             id,
             xml_text(layer.name));
-        const LongLoop loop(layer.lines.size(), stages_.next(1), cancel_, 256);
-        for (std::size_t i = 0; i < layer.lines.size(); ++i) {
-            loop.turn(i);
-            text_ += fmt::format("<path d=\"{}\"/>\n", path_data({&layer.lines[i], 1}));
-            if (text_.size() > most_text)
-                pass_on();
-        }
+        for_each_line(
+            drawing_, layer, lattice_, stages_.next(1), cancel_, [&](const SnappedPath& line) {
+                text_ += fmt::format("<path d=\"{}\"/>\n", path_data({&line, 1}));
+                if (text_.size() > most_text)
+                    pass_on();
+            });
         text_ += "</g>\n";
     }
 
@@ -439,14 +470,13 @@ private:
     std::string fills_id_;
     std::vector<std::string> line_ids_; ///< of the layers of lines, which are their classes too
     GradientNumbers gradients_;
-    std::vector<std::string> gradient_ids_;
-    std::string gradients_text_;              ///< of the last ones
-    std::vector<std::string> held_gradients_; ///< of those before
+    std::unordered_map<std::size_t, std::string> other_gradient_ids_; ///< where the usual was taken
+    std::string gradients_text_;                                      ///< of the last ones
+    std::vector<std::string> held_gradients_;                         ///< of those before
     bool has_seams_ = false;
     OpenGroups groups_;
     bool is_holding_ = false;
-    bool is_held_ = false;
-    std::vector<std::string> held_;  ///< the fills as text, part by part
+    std::vector<std::string> held_;  ///< text that is not passed on yet, part by part
     std::vector<std::string> ready_; ///< what a pipe gets at the end
 };
 
