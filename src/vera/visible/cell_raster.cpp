@@ -125,11 +125,13 @@ VisiblePieces cell_raster(
         if (counts != nullptr)
             *counts = counted;
     }
-    // What penetrates is cut, and of each there are more then, in room that is taken once.
+    // What penetrates is cut, and there are more then, about ten for each pair: in room that is
+    // taken once, or the list would be there twice when it grows.
+    constexpr std::size_t room_for_a_pair = 16;
     std::size_t pairs = 0;
     for (const VisiblePieces& part : parts)
         pairs += part.penetrating.size();
-    VisiblePieces result = joined(std::move(parts), pairs);
+    VisiblePieces result = joined(std::move(parts), room_for_a_pair * pairs);
     sort_pairs(result.penetrating);
     return result;
 }

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <span>
 #include <tuple>
+#include <utility>
 
 namespace vera {
 
@@ -141,10 +142,11 @@ public:
         part.ends = {interval.begin_vertex, interval.end_vertex};
         part.line_class = line_class;
         part.curve = curve;
-        part.begin_degrees = interval.begin;
-        part.end_degrees = interval.end;
         parts_.push_back(part);
+        degrees_.push_back({interval.begin, interval.end});
     }
+
+    std::vector<CurveDegrees> take_degrees() { return std::move(degrees_); }
 
 private:
     std::uint32_t new_point(DrawingPoint place) {
@@ -155,11 +157,12 @@ private:
     const OutlineCurves& curves_;
     std::vector<LinePart>& parts_;
     std::vector<DrawingPoint>& places_;
+    std::vector<CurveDegrees> degrees_; ///< of the parts that were added
 };
 
 } // namespace
 
-void unite_on_curves(
+std::vector<CurveDegrees> unite_on_curves(
     const OutlineCurves& curves,
     double tolerance,
     const CancelFlag* cancel,
@@ -194,6 +197,7 @@ void unite_on_curves(
         for (const Interval& interval : intervals)
             maker.add(curve, line_class, interval);
     }
+    return maker.take_degrees();
 }
 
 } // namespace vera

@@ -313,12 +313,8 @@ std::size_t count_seen_faces(const VisibleMap& map) {
 /// What is seen as regions. The pieces are kept where lines are drawn of them, and the screen too.
 /// In style ids nothing asks what is seen across a ring, but for the check.
 VisibleMap map_of(const Request& request, SeenScene& seen, const Progress& progress) {
-    if (has_lines(request.settings.style)) {
-        VisibleMap map =
-            visible_map_with_points_of(seen.whole.pieces, seen.screen, progress, request.cancel);
-        free_room(seen.whole.pieces.unlit); // lines ask for faces alone
-        return map;
-    }
+    if (has_lines(request.settings.style)) // which ask for faces alone, not for lights
+        return visible_map_with_points_of(seen.whole.pieces, seen.screen, progress, request.cancel);
     const bool asks_across = !request.is_in_numbers() || request.settings.check;
     return visible_map(
         std::move(seen.screen),

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "vera/drawing/line_class.h"
-#include "vera/exact/screen_point.h"
+#include "vera/visible/line_step.h"
 #include "vera/visible/outline_curves.h"
 
 #include <array>
@@ -14,20 +14,6 @@
 
 namespace vera {
 
-/// A step between two points of the picture, in half the room of other ones: there may be millions.
-struct LineStep {
-    LineStep() = default;
-
-    LineStep(ScreenStep step) // NOLINT: the same in other words
-        : x(static_cast<std::int32_t>(step.x))
-        , y(static_cast<std::int32_t>(step.y)) {}
-
-    operator ScreenStep() const { return {x, y}; } // NOLINT
-
-    std::int32_t x = 0;
-    std::int32_t y = 0;
-};
-
 /// A part of a line of the drawing, straight or on a curve.
 struct LinePart {
     std::array<std::uint32_t, 2> ends = {};  ///< numbers of points; of a whole ellipse the same one
@@ -36,8 +22,6 @@ struct LinePart {
     std::uint32_t curve = no_curve;          ///< see OutlineCurves
     LineClass line_class = LineClass::silhouette;
     bool is_between_neighbours = false; ///< see LineRules::is_between_neighbours()
-    double begin_degrees = 0; ///< on the curve, once it is one part of it: see unite_on_curves()
-    double end_degrees = 0;
 };
 
 /// Parts that go on in each other: parts[i] leads from vertices[i] to the next, of a closed chain

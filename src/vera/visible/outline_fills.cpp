@@ -59,9 +59,14 @@ public:
             start_flat(stages, cancel, drawing);
         primitives_.reserve(regions_.count());
         ObjectGroups groups(sources.scene, materials_);
+        std::size_t corners = 0; // of the block
         for (std::size_t i = 0; i < regions_.count(); ++i) {
-            if (i % block_size == 0)
-                groups_of_blocks_.push_back(groups);
+            corners += regions_.corner_count(i);
+            if (blocks_.empty() || corners > most_corners
+                || i - blocks_.back().first == most_regions) {
+                blocks_.push_back({i, groups});
+                corners = regions_.corner_count(i);
+            }
             primitives_.push_back(sources.facets.triangles[facet_of(i)].primitive);
             groups.of(primitives_.back());
         }
@@ -69,14 +74,13 @@ public:
         stages.next(0);
     }
 
-    std::size_t blocks() const { return (regions_.count() + block_size - 1) / block_size; }
+    std::size_t blocks() const { return blocks_.size(); }
 
     std::vector<FilledOutline> block(std::size_t number, const CancelFlag* cancel) const {
-        const std::size_t first = number * block_size;
-        const std::size_t last = std::min(regions_.count(), first + block_size);
-        std::vector<std::uint32_t> numbers(last - first);
-        std::iota(numbers.begin(), numbers.end(), static_cast<std::uint32_t>(first));
-        return outlines_of(numbers, cancel);
+        std::vector<std::uint32_t> numbers(end_of(number) - blocks_[number].first);
+        std::iota(
+            numbers.begin(), numbers.end(), static_cast<std::uint32_t>(blocks_[number].first));
+        return outlines_of(blocks_[number], numbers, cancel);
     }
 
     /// Those of the block that have seams.
@@ -85,11 +89,23 @@ public:
             return std::lower_bound(with_seams_.begin(), with_seams_.end(), region);
         };
         return outlines_of(
-            {place_of(number * block_size), place_of((number + 1) * block_size)}, cancel);
+            blocks_[number], {place_of(blocks_[number].first), place_of(end_of(number))}, cancel);
     }
 
 private:
-    static constexpr std::size_t block_size = 2048; ///< regions
+    // Of a block, but of one region: its outlines take a few hundred bytes a corner.
+    static constexpr std::size_t most_regions = 2048;
+    static constexpr std::size_t most_corners = 16384;
+
+    /// Outlines that are made together.
+    struct Block {
+        std::size_t first = 0; ///< region
+        ObjectGroups groups;   ///< as they were before it
+    };
+
+    std::size_t end_of(std::size_t block) const {
+        return block + 1 < blocks_.size() ? blocks_[block + 1].first : regions_.count();
+    }
 
     bool is_shaded() const { return sources_.style == DrawingStyle::shaded; }
 
@@ -129,28 +145,30 @@ private:
         }
     }
 
-    std::vector<FilledOutline>
-    outlines_of(std::span<const std::uint32_t> numbers, const CancelFlag* cancel) const {
-        return is_shaded() ? shaded(numbers, cancel) : flat(numbers, cancel);
+    std::vector<FilledOutline> outlines_of(
+        const Block& block,
+        std::span<const std::uint32_t> numbers,
+        const CancelFlag* cancel) const {
+        return is_shaded() ? shaded(block, numbers, cancel) : flat(block, numbers, cancel);
     }
 
-    /// Of regions of one block, in their order.
+    /// Of regions of the block, in their order.
     std::vector<std::shared_ptr<const DrawingGroup>>
-    groups_of(std::span<const std::uint32_t> numbers) const {
+    groups_of(const Block& block, std::span<const std::uint32_t> numbers) const {
         std::vector<std::shared_ptr<const DrawingGroup>> groups;
-        if (numbers.empty())
-            return groups;
-        ObjectGroups of_block = groups_of_blocks_[numbers.front() / block_size];
+        ObjectGroups of_block = block.groups;
         groups.reserve(numbers.size());
         for (const std::uint32_t number : numbers)
             groups.push_back(of_block.of(primitives_[number]));
         return groups;
     }
 
-    std::vector<FilledOutline>
-    flat(std::span<const std::uint32_t> numbers, const CancelFlag* cancel) const {
+    std::vector<FilledOutline> flat(
+        const Block& block,
+        std::span<const std::uint32_t> numbers,
+        const CancelFlag* cancel) const {
         std::vector<FilledOutline> fills(numbers.size());
-        const auto groups = groups_of(numbers);
+        const auto groups = groups_of(block, numbers);
         long_parallel_loop(numbers.size(), {}, cancel, 64, [&](std::size_t i) {
             PaintedRegion region = named(numbers[i], groups[i]);
             region.outline.color = colors_[numbers[i]];
@@ -162,10 +180,12 @@ private:
     }
 
     /// As the light shades them.
-    std::vector<FilledOutline>
-    shaded(std::span<const std::uint32_t> numbers, const CancelFlag* cancel) const {
+    std::vector<FilledOutline> shaded(
+        const Block& block,
+        std::span<const std::uint32_t> numbers,
+        const CancelFlag* cancel) const {
         std::vector<LitOutline> lit(numbers.size());
-        const auto groups = groups_of(numbers);
+        const auto groups = groups_of(block, numbers);
         long_parallel_loop(numbers.size(), {}, cancel, 64, [&](std::size_t i) {
             const std::uint32_t number = numbers[i];
             PaintedRegion region = named(number, groups[i]);
@@ -197,11 +217,11 @@ private:
     FillSources sources_;
     std::vector<std::shared_ptr<const DrawingMaterial>> materials_;
     RegionOutlines regions_;
-    std::vector<std::uint64_t> primitives_;      ///< of the regions
-    std::vector<ObjectGroups> groups_of_blocks_; ///< as they were before each
-    std::vector<float> widths_;                  ///< of the regions; of areas in one colour each
-    std::vector<DrawingColor> colors_;           ///< likewise
-    std::vector<std::uint32_t> with_seams_;      ///< regions
+    std::vector<std::uint64_t> primitives_; ///< of the regions
+    std::vector<Block> blocks_;
+    std::vector<float> widths_;             ///< of the regions; of areas in one colour each
+    std::vector<DrawingColor> colors_;      ///< likewise
+    std::vector<std::uint32_t> with_seams_; ///< regions
 };
 
 } // namespace

@@ -21,6 +21,7 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -302,9 +303,11 @@ class StrokeMaker {
 public:
     StrokeMaker(
         const std::vector<LinePart>& parts,
+        std::span<const CurveDegrees> degrees,
         const OutlineCurves& curves,
         const std::vector<DrawingPoint>& places)
         : parts_(parts)
+        , degrees_(degrees)
         , curves_(curves)
         , places_(places) {}
 
@@ -350,11 +353,8 @@ private:
         if (part.curve == no_curve)
             return {};
         const bool forward = part.ends[0] == chain.vertices[i];
-        return {
-            segment,
-            curves_[part.curve],
-            forward ? part.begin_degrees : part.end_degrees,
-            forward ? part.end_degrees : part.begin_degrees};
+        const auto [begin, end] = degrees_[chain.parts[i] - (parts_.size() - degrees_.size())];
+        return {segment, curves_[part.curve], forward ? begin : end, forward ? end : begin};
     }
 
     /// Whether it is to be told from a straight line.
@@ -370,6 +370,7 @@ private:
     }
 
     const std::vector<LinePart>& parts_;
+    std::span<const CurveDegrees> degrees_; ///< of the last of the parts, which are on curves
     const OutlineCurves& curves_;
     const std::vector<DrawingPoint>& places_;
 };
@@ -442,9 +443,10 @@ void add_strokes(
     find_curves(sources, curves, places, cancel, lines.parts);
     move_to_curves(sources, curves, lines.parts, cancel, places);
     next_stage(1);
-    unite_on_curves(curves, tolerance(sources), cancel, lines.parts, places);
+    const std::vector<CurveDegrees> degrees =
+        unite_on_curves(curves, tolerance(sources), cancel, lines.parts, places);
 
-    const StrokeMaker maker(lines.parts, curves, places);
+    const StrokeMaker maker(lines.parts, degrees, curves, places);
     const Progress of_classes = next_stage(1);
     for (std::size_t i = 0; i < line_class_names.size(); ++i) {
         const auto line_class = static_cast<LineClass>(i);

@@ -197,7 +197,7 @@ public:
         , sees_others_(sees_others)
         , most_(
               sees_others_ ? std::numeric_limits<std::size_t>::max()
-                           : most_at_a_time(thrown, std::max(at_a_time, triangles_ / 16)))
+                           : most_at_a_time(thrown, std::max(at_a_time, triangles_ / 32)))
         , raster_(raster_of(
               screen,
               [&](CellRaster& raster, const Cells& cells) { return asked_cells(raster, cells); },

@@ -30,7 +30,7 @@ struct ShadowedPieces {
 
 /// The screen gets the vertices between which pieces of shadows' borders lie, and keeps its
 /// triangles. Throws Cancelled, and std::runtime_error where the memory that is available would not
-/// suffice. So many shadows may be there at a time at first, or those of an eighth as many
+/// suffice. So many shadows may be there at a time at first, or those of a 32nd as many
 /// triangles as the screen has: the pieces do not depend on it.
 ShadowedPieces shadowed_cell_raster(
     ScreenScene& screen,
@@ -39,6 +39,6 @@ ShadowedPieces shadowed_cell_raster(
     const Progress& progress = {},
     const CancelFlag* cancel = nullptr,
     const ExpectPieces& expect = {},
-    std::size_t at_a_time = 8192);
+    std::size_t at_a_time = 4096);
 
 } // namespace vera

@@ -13,7 +13,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <numeric>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -35,37 +34,29 @@ bool turns_before(ScreenStep a, ScreenStep b) {
     return cross(a, b) > 0;
 }
 
-/// The ways that leave each vertex, in their order round it to the left.
+/// The ways that leave each vertex, as lists. What is found for a way may be put in the place of
+/// next[way] when the list of its vertex was gone through.
 struct Leaving {
-    std::vector<std::uint32_t> starts;
-    std::vector<std::uint32_t> ways;
-
-    std::span<std::uint32_t> of(std::size_t vertex) {
-        return std::span(ways).subspan(starts[vertex], starts[vertex + 1] - starts[vertex]);
+    Leaving(const Ways& ways, std::size_t vertex_count)
+        : first(vertex_count, no_way)
+        , next(ways.count()) {
+        for (auto way = static_cast<std::uint32_t>(ways.count()); way-- > 0;)
+            next[way] = std::exchange(first[ways.from(way)], way);
     }
-};
 
-Leaving leaving_ways(const Ways& ways, std::size_t vertex_count, const CancelFlag* cancel) {
-    Leaving leaving;
-    leaving.starts.resize(vertex_count + 1);
-    for (std::uint32_t way = 0; way < ways.count(); ++way)
-        ++leaving.starts[ways.from(way) + 1];
-    std::partial_sum(leaving.starts.begin(), leaving.starts.end(), leaving.starts.begin());
-    leaving.ways.resize(ways.count());
-    std::vector<std::uint32_t> next(leaving.starts.begin(), leaving.starts.end() - 1);
-    for (std::uint32_t way = 0; way < ways.count(); ++way)
-        leaving.ways[next[ways.from(way)]++] = way;
-    parallel_ranges(vertex_count, block, [&](std::size_t first, std::size_t last) {
-        stop_if_raised(cancel);
-        for (std::size_t vertex = first; vertex < last; ++vertex) {
-            const std::span<std::uint32_t> here = leaving.of(vertex);
-            std::sort(here.begin(), here.end(), [&](std::uint32_t a, std::uint32_t b) {
-                return turns_before(ways.direction(a), ways.direction(b));
-            });
-        }
-    });
-    return leaving;
-}
+    /// In their order round the vertex to the left.
+    void list_at(std::size_t vertex, const Ways& ways, std::vector<std::uint32_t>& here) const {
+        here.clear();
+        for (std::uint32_t way = first[vertex]; way != no_way; way = next[way])
+            here.push_back(way);
+        std::sort(here.begin(), here.end(), [&](std::uint32_t a, std::uint32_t b) {
+            return turns_before(ways.direction(a), ways.direction(b));
+        });
+    }
+
+    std::vector<std::uint32_t> first; ///< of each vertex
+    std::vector<std::uint32_t> next;  ///< of each way
+};
 
 /// Ways that end, or begin, where none of their region goes on.
 struct Loose {
@@ -253,24 +244,28 @@ std::vector<std::uint32_t>
 following(const Ways& ways, const Progress& progress, const CancelFlag* cancel, VisibleMap& map) {
     StageProgress stages(progress, 2);
     stages.next(1);
-    Leaving leaving = leaving_ways(ways, map.vertices.size(), cancel);
+    Leaving leaving(ways, map.vertices.size());
     stages.next(1);
-    std::vector<std::uint32_t> result(ways.count());
     std::vector<Loose> loose((map.vertices.size() + block - 1) / block);
     parallel_ranges(loose.size(), 1, [&](std::size_t number, std::size_t) {
         stop_if_raised(cancel);
         const std::size_t end = std::min(map.vertices.size(), (number + 1) * block);
+        std::vector<std::uint32_t> here;
         for (std::size_t vertex = number * block; vertex < end; ++vertex) {
-            const std::span<const std::uint32_t> here = leaving.of(vertex);
+            leaving.list_at(vertex, ways, here);
             for (std::size_t i = 0; i < here.size(); ++i) {
                 const std::uint32_t coming = here[i] ^ 1U;
                 const std::uint32_t going = here[i == 0 ? here.size() - 1 : i - 1];
-                result[coming] = going;
+                leaving.next[here[i]] = going;
                 if (ways.region[coming] != ways.region[going])
                     loose[number].add(coming, going);
             }
         }
     });
+    free_room(leaving.first);
+    std::vector<std::uint32_t> result = std::move(leaving.next);
+    for (std::size_t i = 0; i < result.size(); i += 2)
+        std::swap(result[i], result[i + 1]); // of the way that comes, in place of the one back
     Joining(ways, cancel, result, map).join(joined(loose));
     return result;
 }
@@ -283,7 +278,7 @@ Ways ways_of(
     VisibleMap& map) {
     StageProgress stages(progress, 2);
     const std::size_t count = pieces.pieces.size();
-    Ways ways(scene, pieces.pieces);
+    Ways ways(count);
     // Calls visit(way, region) for the ways of the piece with one on their left.
     const auto for_each_region = [&](std::size_t i, const auto& visit) {
         const VisiblePiece& piece = pieces.pieces[i];
@@ -303,10 +298,16 @@ Ways ways_of(
     stages.next(1);
     parallel_ranges(count, block, [&](std::size_t first, std::size_t last) {
         stop_if_raised(cancel);
-        for (std::size_t i = first; i < last; ++i)
+        for (std::size_t i = first; i < last; ++i) {
+            const VisiblePiece& piece = pieces.pieces[i];
+            ways.pieces[i] = {
+                piece.from,
+                piece.to,
+                step(scene.vertices[piece.edge.begin].point, scene.vertices[piece.edge.end].point)};
             for_each_region(i, [&](std::size_t way, VisibleMap::Region region) {
                 ways.region[way] = regions.number(region);
             });
+        }
     });
     return ways;
 }
@@ -318,6 +319,7 @@ struct MapOrigin {
     const VisiblePieces& pieces;
     VisiblePieces* given_pieces;
     std::vector<PackedPoint>* given_points;
+    std::vector<UnlitBeside>* given_unlit;
 
     std::vector<PackedPoint> points() const {
         if (given_points != nullptr)
@@ -325,19 +327,16 @@ struct MapOrigin {
         return pieces.points;
     }
 
-    /// When what is beside each way is known: where vertices are is still asked.
-    void forget_triangles() const {
-        if (given_scene != nullptr)
+    /// When there are ways.
+    void forget() const {
+        if (given_scene != nullptr) {
             free_room(given_scene->triangles);
-        if (given_pieces != nullptr)
-            free_room(given_pieces->unlit);
-    }
-
-    void forget_pieces() const {
-        if (given_scene != nullptr)
             free_room(given_scene->vertices);
+        }
         if (given_pieces != nullptr)
             free_room(given_pieces->pieces);
+        if (given_unlit != nullptr)
+            free_room(*given_unlit);
     }
 };
 
@@ -349,7 +348,7 @@ std::vector<TracedRings> found_rings(
     VisibleMap& map) {
     StageProgress stages(progress, 3);
     const Ways ways = ways_of(origin.scene, origin.pieces, stages.next(1), cancel, map);
-    origin.forget_triangles();
+    origin.forget();
     std::vector<std::uint32_t> next = following(ways, stages.next(1), cancel, map);
     return traced_rings(ways, map.regions.size(), detail, std::move(next), stages.next(1), cancel);
 }
@@ -362,7 +361,6 @@ VisibleMap made_map(
     VisibleMap map;
     map.vertices = origin.points();
     std::vector<TracedRings> parts = found_rings(origin, detail, progress, cancel, map);
-    origin.forget_pieces();
     join_rings(std::move(parts), detail, map);
     return map;
 }
@@ -375,7 +373,10 @@ VisibleMap visible_map(
     const Progress& progress,
     const CancelFlag* cancel) {
     return made_map(
-        {scene, nullptr, pieces, nullptr, nullptr}, RingDetail::with_across, progress, cancel);
+        {scene, nullptr, pieces, nullptr, nullptr, nullptr},
+        RingDetail::with_across,
+        progress,
+        cancel);
 }
 
 VisibleMap visible_map_with_points_of(
@@ -384,7 +385,7 @@ VisibleMap visible_map_with_points_of(
     const Progress& progress,
     const CancelFlag* cancel) {
     return made_map(
-        {scene, nullptr, pieces, nullptr, &pieces.points},
+        {scene, nullptr, pieces, nullptr, &pieces.points, &pieces.unlit},
         RingDetail::with_across,
         progress,
         cancel);
@@ -399,7 +400,7 @@ VisibleMap visible_map(
     ScreenScene own_scene = std::move(scene);
     VisiblePieces own_pieces = std::move(pieces);
     return made_map(
-        {own_scene, &own_scene, own_pieces, &own_pieces, &own_pieces.points},
+        {own_scene, &own_scene, own_pieces, &own_pieces, &own_pieces.points, &own_pieces.unlit},
         detail,
         progress,
         cancel);

@@ -67,7 +67,7 @@ VisibleMap visible_map(
     const Progress& progress = {},
     const CancelFlag* cancel = nullptr);
 
-/// The same, but the pieces give their points away, which the map has for vertices.
+/// The same, but the pieces give away their points, which the map has for vertices, and lights.
 VisibleMap visible_map_with_points_of(
     VisiblePieces& pieces,
     const ScreenScene& scene,

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "vera/visible/cell_raster.h"
-#include "vera/visible/screen_scene.h"
+#include "vera/visible/line_step.h"
 #include "vera/visible/visible_map.h"
 
 #include <cstddef>
@@ -13,19 +12,25 @@ namespace vera {
 
 constexpr std::uint32_t no_way = ~std::uint32_t{0};
 
-/// The two ways along a piece: 2 i with, 2 i + 1 against its edge.
+/// The two ways along each piece: 2 i with, 2 i + 1 against its edge. All that a map is made of
+/// beside the points, and smaller than pieces and scene, which are not asked any more.
 class Ways {
 public:
-    Ways(const ScreenScene& scene, const std::vector<VisiblePiece>& pieces)
-        : region(2 * pieces.size(), no_region)
-        , scene_(scene)
-        , pieces_(pieces) {}
+    struct Piece {
+        std::uint32_t from = 0;
+        std::uint32_t to = 0;
+        LineStep step; ///< along the whole edge
+    };
+
+    explicit Ways(std::size_t count)
+        : pieces(count)
+        , region(2 * count, no_region) {}
 
     std::size_t count() const { return region.size(); }
 
     /// Where the way begins.
     std::uint32_t from(std::uint32_t way) const {
-        const VisiblePiece& piece = pieces_[way / 2];
+        const Piece& piece = pieces[way / 2];
         return way % 2 == 0 ? piece.from : piece.to;
     }
 
@@ -33,17 +38,12 @@ public:
 
     /// Along the whole edge.
     ScreenStep direction(std::uint32_t way) const {
-        const ScreenEdges::Edge& edge = pieces_[way / 2].edge;
-        const ScreenPoint begin = scene_.vertices[edge.begin].point;
-        const ScreenPoint end = scene_.vertices[edge.end].point;
-        return way % 2 == 0 ? step(begin, end) : step(end, begin);
+        const ScreenStep step = pieces[way / 2].step;
+        return way % 2 == 0 ? step : ScreenStep{-step.x, -step.y};
     }
 
-    std::vector<std::uint32_t> region; ///< seen on the left
-
-private:
-    const ScreenScene& scene_;
-    const std::vector<VisiblePiece>& pieces_;
+    std::vector<Piece> pieces;
+    std::vector<std::uint32_t> region; ///< seen on the left of each way
 };
 
 } // namespace vera
