@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/base/available_memory.h"
 #include "vera/base/free_room.h"
+#include "vera/base/held_memory.h"
 #include "vera/base/output_file.h"
 #include "vera/base/progress_part.h"
 #include "vera/base/version.h"
@@ -400,6 +401,21 @@ DrawnScene draw_and_write(
     return drawn;
 }
 
+/// Refuses a limit that is less than what there is already with what a small drawing takes, of
+/// which there is no forecast.
+void require_room_to_draw(std::uint64_t limit) {
+    constexpr std::uint64_t mebibyte = std::uint64_t{1} << 20U;
+    constexpr std::uint64_t of_small_drawing = 8 * mebibyte; // see require_memory()
+    const std::uint64_t held = held_memory();
+    if (held + of_small_drawing > limit)
+        throw std::runtime_error(fmt::format(
+            "the program and the scene take about {} MiB of memory, and a small drawing {} MiB "
+            "more: --memory-limit must be {}M at least",
+            held / mebibyte + 1,
+            of_small_drawing / mebibyte,
+            (held + of_small_drawing) / mebibyte + 1));
+}
+
 void draw(const Request& request, Console& console) {
     const DrawingFormat format = output_format(request);
     DrawSettings settings;
@@ -440,6 +456,8 @@ void draw(const Request& request, Console& console) {
         if (const auto warning = transparency_warning(prepared.scene))
             print_diagnostics({&*warning, 1}, console);
     keep_what_was_read(request.scene, prepared.scene, "--output", request.output);
+    if (memory)
+        require_room_to_draw(bytes_of("--memory-limit", request.memory_limit));
     // Opened before the long work, so that a folder that is not there shows at once.
     OutputFile file(request.output);
     report.read_seconds = watch.lap();

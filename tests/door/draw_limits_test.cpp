@@ -44,7 +44,7 @@ TEST(DrawCommand, GivesUpAfterTheTimeLimitWhileItReadsAsWell) {
 TEST(DrawCommand, RefusesWhatWouldTakeMoreThanTheMemoryLimit) {
     const ScratchFolder folder;
     folder.write("a.vera", many_spheres());
-    const ProgramRun run = run_vera(folder, "draw a.vera --memory-limit 20M -o a.svg");
+    const ProgramRun run = run_vera(folder, "draw a.vera --memory-limit 40M -o a.svg");
     EXPECT_EQ(run.exit_code, 3) << run.err;
     EXPECT_TRUE(holds(run.err, "vera: error: the scene in ")) << run.err;
     EXPECT_TRUE(holds(run.err, " facets takes about ")) << run.err;
@@ -52,6 +52,12 @@ TEST(DrawCommand, RefusesWhatWouldTakeMoreThanTheMemoryLimit) {
     EXPECT_EQ(folder.file_count(), 1U);
 
     folder.write("b.vera", small_scene);
+    const ProgramRun little = run_vera(folder, "draw b.vera --memory-limit 1 -o b.svg");
+    EXPECT_EQ(little.exit_code, 3) << little.err;
+    EXPECT_TRUE(holds(little.err, "vera: error: the program and the scene take about "))
+        << little.err;
+    EXPECT_TRUE(holds(little.err, "M at least")) << little.err;
+    EXPECT_EQ(folder.file_count(), 2U);
     const ProgramRun enough = run_vera(folder, "draw b.vera --memory-limit 1.5g -o b.svg");
     EXPECT_EQ(enough.exit_code, 0) << enough.err;
     for (const char* wrong : {"much", "-1M", "M", "1e40", "3X"}) {

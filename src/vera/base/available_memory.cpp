@@ -2,6 +2,7 @@
 #include "vera/base/available_memory.h"
 
 #include "vera/base/free_room.h"
+#include "vera/base/held_memory.h"
 
 #include <algorithm>
 #include <atomic>
@@ -54,12 +55,7 @@ std::atomic<std::uint64_t> memory_limit = no_limit;
 std::optional<std::uint64_t> left_by_memory_limit() {
     if (memory_limit == no_limit)
         return std::nullopt;
-    std::ifstream statm("/proc/self/statm");
-    std::uint64_t address_space = 0;
-    std::uint64_t pages = 0;
-    statm >> address_space >> pages;
-    const std::uint64_t held = pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
-    return memory_limit - std::min<std::uint64_t>(held, memory_limit);
+    return memory_limit - std::min<std::uint64_t>(held_memory(), memory_limit);
 }
 
 std::optional<std::uint64_t> left_by_address_space() {

@@ -42,19 +42,26 @@ double curved_part_of(const Facets& facets) {
                              : static_cast<double>(curved) / static_cast<double>(triangles.size());
 }
 
+namespace {
+
+/// Of a surface as many as both together; of triangles that have nothing in common, three each.
+double edges_of(const ScreenCounts& counts) {
+    const std::size_t triangles = counts.surfaces + counts.shadows;
+    return static_cast<double>(std::min(3 * triangles, triangles + counts.vertices));
+}
+
+} // namespace
+
 double raster_bytes(const ScreenCounts& counts) {
     constexpr double per_surface = 131; // with eight entries in lists of cells
     constexpr double per_shadow = 125;
     constexpr double per_edge = 20;
     constexpr double per_cell = 12;
-    const std::size_t triangles = counts.surfaces + counts.shadows;
-    // Of a surface as many as both together; of triangles that have nothing in common, three each.
-    const std::size_t edges = std::min(3 * triangles, triangles + counts.vertices);
     double cells = 4; // as cells_of() has them
     while (cells < 1.5 * static_cast<double>(counts.surfaces))
         cells *= 4;
     return per_surface * static_cast<double>(counts.surfaces)
-        + per_shadow * static_cast<double>(counts.shadows) + per_edge * static_cast<double>(edges)
+        + per_shadow * static_cast<double>(counts.shadows) + per_edge * edges_of(counts)
         + per_cell * cells;
 }
 
@@ -71,8 +78,9 @@ struct StyleBytes {
     double piece = 0;
     double curved_piece = 0; ///< beside these, along curved surfaces
     double region = 0;
-    double curved_region = 0; ///< in place of these, of curved surfaces
-    double surface = 0;       ///< whose edges may be hidden lines
+    double curved_region = 0;  ///< in place of these, of curved surfaces
+    double region_at_hand = 0; ///< of those whose outlines are made at a time
+    double surface = 0;        ///< whose edges may be hidden lines
     double curved_surface = 0;
 };
 
@@ -80,25 +88,25 @@ StyleBytes bytes_of(DrawingStyle style, FaceOutlines outlines) {
     const bool are_later = outlines == FaceOutlines::later;
     switch (style) {
     case DrawingStyle::flat:
-        // Regions of colours that are alike go on below the whole of each other: others take half.
         if (are_later)
-            return {.piece = 150, .curved_piece = -90, .region = 670, .curved_region = 140};
+            return {.piece = 130, .region_at_hand = 1500};
+        // Regions of colours that are alike go on below the whole of each other: others take half.
         return {.piece = 160, .curved_piece = 630, .region = 770, .curved_region = 20};
     case DrawingStyle::shaded: // curved ones are smooth faces, or facets
         if (are_later)
-            return {.piece = 50, .curved_piece = -30, .region = 1260, .curved_region = 250};
+            return {.piece = 150, .region_at_hand = 2000};
         return {.piece = 200, .curved_piece = 160, .region = 920, .curved_region = 80};
     case DrawingStyle::ids: // as areas that share their corners
         return {.piece = 75};
     case DrawingStyle::lines:
-        return {.piece = 220};
-    case DrawingStyle::hidden_lines: // the edges of smooth ones are none
+        return {.piece = are_later ? 130.0 : 220.0}; // without the text or with it
+    case DrawingStyle::hidden_lines:                 // the edges of smooth ones are none
         return {.piece = 440, .surface = 530, .curved_surface = 150};
     case DrawingStyle::toon:
         if (are_later)
-            return {.piece = 205, .region = 655};
+            return {.piece = 190, .region_at_hand = 1500};
         return {
-            .piece = 330, .curved_piece = 100, .region = 730, .curved_region = 540, .surface = 70};
+            .piece = 315, .curved_piece = 100, .region = 730, .curved_region = 540, .surface = 70};
     }
     return {};
 }
@@ -114,7 +122,9 @@ double drawing_bytes(
     // Each surface has one, and what shadows leave of it. Of its three sides and more two may have
     // each.
     const double regions = std::min(surfaces + static_cast<double>(counts.shadows), 2 * pieces / 3);
+    constexpr double most_at_hand = 2048;
     return pieces * (bytes.piece + part * bytes.curved_piece)
+        + std::min(regions, most_at_hand) * bytes.region_at_hand
         + regions * ((1 - part) * bytes.region + part * bytes.curved_region)
         + surfaces * ((1 - part) * bytes.surface + part * bytes.curved_surface);
 }
@@ -135,13 +145,35 @@ void require_piece_memory(double pieces, double pairs) {
         remedy);
 }
 
+namespace {
+
+/// The room in which pieces of one part of the edges are found before they are put beside those of
+/// the others.
+double room_bytes(double pieces, const ScreenCounts& counts) {
+    constexpr double per_piece = 110;
+    constexpr double edges_of_part = 4096;
+    return per_piece * pieces * std::min(edges_of_part / std::max(edges_of(counts), 1.0), 1.0);
+}
+
+/// What is there now and is given back before the map is made. Forecasts may be half too large.
+double given_back_bytes(double pieces, ScreenCounts counts) {
+    if (counts.shadows == 0)
+        return raster_bytes(counts) / 1.5;
+    // Few shadows are there at a time, but a list of what throws them, and pieces of surfaces.
+    constexpr double per_shadow = 8;
+    const double list = per_shadow * static_cast<double>(counts.shadows);
+    counts.shadows = 0;
+    return raster_bytes(counts) / 1.5 + list + piece_bytes(pieces) / 2;
+}
+
+} // namespace
+
 void require_drawing_memory(
     double pieces, const ScreenCounts& counts, DrawingStyle style, FaceOutlines outlines) {
-    // What edges are compared with is there now, and given back before. Its forecast may be half
-    // too large.
-    const double given_back = raster_bytes(counts) / 1.5;
     require_memory(
-        std::max(piece_bytes(pieces), drawing_bytes(pieces, counts, style, outlines) - given_back),
+        std::max(
+            piece_bytes(pieces) + room_bytes(pieces, counts),
+            drawing_bytes(pieces, counts, style, outlines) - given_back_bytes(pieces, counts)),
         "the drawing would have about " + about(pieces) + " lines between what is seen, which",
         remedy);
 }

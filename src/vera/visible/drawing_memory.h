@@ -31,7 +31,7 @@ double raster_bytes(const ScreenCounts& counts);
 double piece_bytes(double pieces, double pairs = 0);
 
 /// What is made of so many pieces, from the map to the text of the file, in place of what edges
-/// were compared with.
+/// were compared with. Where outlines are made later, the text is in the file and not in memory.
 double
 drawing_bytes(double pieces, const ScreenCounts& counts, DrawingStyle style, FaceOutlines outlines);
 
