@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/base/output_file.h"
+#include "vera/drawing/drawing_file.h"
 #include "vera/image/image_file.h"
 #include "vera/render/render_scene.h"
 
@@ -70,10 +71,12 @@ ImageFileFormat output_format(const Request& request) {
     if (const auto format = format_from_extension(request.output))
         return *format;
     throw CommandLineError(fmt::format(
-        "cannot tell the format of '{}' by its name; {}give --format with one of {}",
+        "cannot tell the format of '{}' by its name; {}give --format with one of {}{}",
         request.output,
         similar_file(request.output, {".png", ".exr", ".jpg", ".jpeg", ".ppm", ".pfm", ".vra"}),
-        format_names()));
+        format_names(),
+        drawing_format_from_extension(request.output) ? ", or make a drawing with 'vera draw'"
+                                                      : ""));
 }
 
 nlohmann::ordered_json as_json(const Report& report) {

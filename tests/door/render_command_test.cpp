@@ -91,6 +91,7 @@ TEST(RenderCommand, RefusesWhatItCannotUnderstand) {
          "vera: error: --scene-format takes vera, nff, obj, ply or stl; found 'tree' ("},
         {"-o a.png --color no", "--color takes auto, always or never; found 'no' ("},
         {"-o a.xyz", "cannot tell the format of 'a.xyz' by its name; give --format with one of"},
+        {"-o a.svg", "vra, vra16, or make a drawing with 'vera draw'"},
         {"-o a.pgn", "cannot tell the format of 'a.pgn' by its name; did you mean 'a.png'?"},
         {"-o -", "--format"},
     };
@@ -139,6 +140,19 @@ TEST(RenderCommand, FailsClearlyWhereItCannotReadOrWrite) {
                 run.err, "vera: error: cannot write standard output: No space left on device\n");
         }
     }
+}
+
+TEST(RenderCommand, SaysThatAFileMayNotGrowAndLeavesNone) {
+    const ScratchFolder folder;
+    folder.write("a.vera", small_scene);
+    const ProgramRun run =
+        run_vera(folder, "render a.vera --raster 64x64 -o a.ppm", "ulimit -f 8;");
+    EXPECT_EQ(run.exit_code, 3);
+    EXPECT_EQ(
+        run.err,
+        "vera: error: cannot write 'a.ppm'; raise the limit on the size of files (ulimit -f) or "
+        "choose a smaller picture: File too large\n");
+    EXPECT_EQ(folder.file_count(), 1U);
 }
 
 TEST(RenderCommand, FramesAndLightsAMeshThatComesAlone) {

@@ -14,6 +14,7 @@ namespace vera {
 namespace {
 
 using testing::ElementsAre;
+using testing::EndsWith;
 using testing::HasSubstr;
 
 TEST(Develop, RoundsToTheNearestByteAndClamps) {
@@ -110,8 +111,15 @@ TEST(BlankImage, SaysHowMuchMemoryIsMissing) {
         EXPECT_THAT(
             error.what(),
             HasSubstr("a picture of 2147483648 x 2147483648 pixels takes "
-                      "51539607552.0 GB of memory, of which "));
-        EXPECT_THAT(error.what(), HasSubstr("make it smaller"));
+                      "51539607552.0 GiB of memory, of which "));
+        EXPECT_THAT(
+            error.what(), HasSubstr(" GiB are free; make it smaller or choose a format of 8 bits"));
+    }
+    try {
+        blank_image(std::size_t{1} << 31, std::size_t{1} << 31, SampleType::integer8);
+        FAIL();
+    } catch (const std::runtime_error& error) {
+        EXPECT_THAT(error.what(), EndsWith("; make it smaller"));
     }
 }
 

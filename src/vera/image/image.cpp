@@ -15,15 +15,17 @@ namespace vera {
 namespace {
 
 [[noreturn]] void throw_too_large(std::size_t width, std::size_t height, std::size_t pixel_bytes) {
-    constexpr double gigabyte = 1 << 30;
+    constexpr double gibibyte = 1 << 30;
     const double bytes =
         static_cast<double>(width) * static_cast<double>(height) * static_cast<double>(pixel_bytes);
     std::string problem = fmt::format(
-        "a picture of {} x {} pixels takes {:.1f} GB of memory", width, height, bytes / gigabyte);
+        "a picture of {} x {} pixels takes {:.1f} GiB of memory", width, height, bytes / gibibyte);
     if (const auto available = available_memory())
         problem += fmt::format(
-            ", of which {:.1f} GB are free", static_cast<double>(*available) / gigabyte);
-    throw std::runtime_error(problem + "; make it smaller or choose a format of 8 bits");
+            ", of which {:.1f} GiB are free", static_cast<double>(*available) / gibibyte);
+    const bool is_smallest = pixel_bytes <= 3 * size_of(SampleType::integer8);
+    throw std::runtime_error(
+        problem + "; make it smaller" + (is_smallest ? "" : " or choose a format of 8 bits"));
 }
 
 /// Zeros, for which the system is asked for large pages before they are written: it gives these
