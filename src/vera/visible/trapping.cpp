@@ -39,7 +39,8 @@ void for_each_border_with_later(
         while (begin < points.size() && across(0) == across(points.size() - 1))
             ++begin;
         begin %= points.size();
-        std::ranges::rotate(points, points.begin() + static_cast<std::ptrdiff_t>(begin));
+        std::rotate(
+            points.begin(), points.begin() + static_cast<std::ptrdiff_t>(begin), points.end());
         points.push_back(points.front());
         for (std::size_t side = 0, end = 0; side + 1 < points.size(); side = end) {
             for (end = side + 1; end + 1 < points.size() && across(end) == across(side);)
