@@ -99,6 +99,22 @@ ScreenScene hidden_grate(std::size_t count) {
     return scene;
 }
 
+/// One face with so many corners, more or less round, as a fan.
+ScreenScene disc(std::size_t count) {
+    ScreenScene scene;
+    for (std::size_t i = 0; i < count; ++i) {
+        const double angle = 6.283 * static_cast<double>(i) / static_cast<double>(count);
+        const auto place = [&](double part) {
+            return static_cast<std::int32_t>(screen_size / 2 * (1 + 0.9 * part));
+        };
+        scene.vertices.push_back(
+            {{place(std::cos(angle)), place(std::sin(angle))}, depth_size / 2});
+    }
+    for (std::uint32_t i = 2; i < count; ++i)
+        add_triangle(scene, {0, i - 1, i}, 0);
+    return scene;
+}
+
 CellCounts counted_cells(const ScreenScene& scene) {
     CellCounts counts;
     cell_raster(scene, {}, nullptr, {}, &counts);
@@ -171,6 +187,16 @@ TEST(EngineCounts, OfTheCellsGrowNoFasterThanTrianglesWhereWhatIsHiddenLiesBehin
     check("balls", balls, 500);
     check("terrain", terrain, 500);
     check("hidden grate", hidden_grate, 500);
+}
+
+TEST(EngineCounts, OfEdgesWithinALargeFaceAreFew) {
+    for (const std::size_t size : sizes(500)) {
+        const CellCounts counts = counted_cells(disc(size));
+        // Each of them would be compared with many of the others.
+        EXPECT_LT(
+            counts.looked_at + counts.candidates + counts.events + counts.active, size * size / 4)
+            << size;
+    }
 }
 
 TEST(EngineCounts, OfListsOfTheCellsAreInProportionToTrianglesEverywhere) {

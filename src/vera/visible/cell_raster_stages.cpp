@@ -41,6 +41,38 @@ std::vector<std::uint32_t> shadowed_sources(const ScreenScene& scene, const Scre
     return sources;
 }
 
+/// Of the edges, whether they part two surfaces of one source; empty: none does.
+std::vector<std::uint8_t>
+edges_within_sources(const ScreenScene& scene, const std::vector<EdgeNeighbours>& neighbours) {
+    const auto is_within = [&](const EdgeNeighbours& beside) {
+        if (!beside.are_two())
+            return false;
+        const ScreenTriangle& left = scene.triangles[beside.left];
+        const ScreenTriangle& right = scene.triangles[beside.right];
+        return left.source == right.source && !left.is_shadow() && !right.is_shadow();
+    };
+    if (std::none_of(neighbours.begin(), neighbours.end(), is_within))
+        return {};
+    std::vector<std::uint8_t> within(neighbours.size());
+    for (std::size_t i = 0; i < neighbours.size(); ++i)
+        within[i] = is_within(neighbours[i]) ? 1 : 0;
+    return within;
+}
+
+/// Of the cells, whether all surfaces in their lists are parts of one source.
+std::vector<std::uint8_t> cells_of_one_source(const ScreenScene& scene, const Cells& cells) {
+    std::vector<std::uint8_t> result(cells.blocked.size());
+    parallel_ranges(result.size(), 4096, [&](std::size_t first, std::size_t last) {
+        for (std::size_t cell = first; cell < last; ++cell) {
+            const std::span<const std::uint32_t> here = cells.triangles_of(cell);
+            result[cell] = std::all_of(here.begin(), here.end(), [&](std::uint32_t i) {
+                return scene.triangles[i].source == scene.triangles[here.front()].source;
+            });
+        }
+    });
+    return result;
+}
+
 /// Of the triangles that have none yet.
 void add_corners(CellRaster& raster) {
     const ScreenScene& scene = raster.scene;
@@ -123,7 +155,7 @@ CellRaster raster_of(
     };
     next_stage();
     require_raster_memory(scene);
-    CellRaster raster = {scene, slopes_of(scene), {}, {}, {}, {}, {}, 0, {}, {}, {}};
+    CellRaster raster = {scene, slopes_of(scene), {}, {}, {}, {}, {}, 0, {}, {}, {}, {}, {}};
     add_corners(raster);
     next_stage();
     raster.edges = screen_edges(scene);
@@ -143,6 +175,9 @@ CellRaster raster_of(
     raster.cells = cells_of(scene, raster.slopes, cancel, asked_cells, &sheets);
     next_stage();
     block_by_sheets(raster.cells, sheets, cancel);
+    raster.within_source = edges_within_sources(scene, neighbours);
+    if (!raster.within_source.empty())
+        raster.has_one_source = cells_of_one_source(scene, raster.cells);
     raster.shadow_cells = shadow_cells_of(raster.cells, scene, raster.slopes, cancel);
     next_stage();
     hide_edges(raster, 0, 0, HiddenSquares(raster.cells), cancel);

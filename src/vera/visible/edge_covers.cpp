@@ -282,11 +282,23 @@ void EdgeSweep::add_all_across() {
     across_.clear();
 }
 
+/// Whether the edge parts nothing that is seen: it lies within a source, and where it goes there is
+/// no other. Not told part by part: what covers an edge does so to where its own sides end, also in
+/// cells in whose lists it is not.
+bool EdgeSweep::lies_within_one_source(std::uint32_t edge) const {
+    return raster_.is_within_source(edge)
+        && for_each_cell_along(raster_.cells, begin_, end_, [&](std::size_t cell) {
+               return raster_.shows_one_source(cell);
+           });
+}
+
 /// Gathers the covers that matter for what is seen beside the edge; false where it parts nothing.
 bool EdgeSweep::gather(std::uint32_t edge) {
     const auto& [begin, end] = raster_.edges.edges[edge];
     begin_ = raster_.scene.vertices[begin].point;
     end_ = raster_.scene.vertices[end].point;
+    if (lies_within_one_source(edge))
+        return false;
     way_ = step(begin_, end_);
     least_ = {std::min(begin_.x, end_.x), std::min(begin_.y, end_.y)};
     most_ = {std::max(begin_.x, end_.x), std::max(begin_.y, end_.y)};

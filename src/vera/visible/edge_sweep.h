@@ -32,6 +32,10 @@ struct CellRaster {
     std::vector<std::uint8_t> inner;
     std::vector<std::uint32_t> shadowed;
     std::vector<std::uint8_t> is_near_change; ///< of edges; empty: all are
+    /// Of edges of surfaces, whether they lie between two parts of one source, which then is on
+    /// both sides.
+    std::vector<std::uint8_t> within_source;
+    std::vector<std::uint8_t> has_one_source; ///< of cells, whether the surfaces are parts of one
 
     /// Whether the edge is one between two parts of one shadow.
     bool is_inner(std::uint32_t edge) const {
@@ -43,6 +47,16 @@ struct CellRaster {
     std::uint32_t shadowed_source(std::uint32_t edge) const {
         return shadowed.empty() || edge < first_shadow_edge ? no_source
                                                             : shadowed[edge - first_shadow_edge];
+    }
+
+    bool is_within_source(std::uint32_t edge) const {
+        return edge < within_source.size() && within_source[edge] != 0;
+    }
+
+    /// Whether nothing is seen in the cell but one source, and no shadow on it.
+    bool shows_one_source(std::size_t cell) const {
+        return has_one_source[cell] != 0
+            && (shadow_cells.starts.empty() || shadow_cells.shadows_of(cell).empty());
     }
 
     /// Whether some light may not reach something that is seen.
@@ -123,6 +137,7 @@ private:
     template <typename List, typename DoesMatter>
     void classify_along(
         const List& list, const DoesMatter& does_matter, std::uint8_t hidden_eighths = 0);
+    bool lies_within_one_source(std::uint32_t edge) const;
     void hide_between(std::int64_t first, std::int64_t last);
     void classify(std::uint32_t triangle);
     void
