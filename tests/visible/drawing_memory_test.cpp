@@ -265,7 +265,7 @@ TEST(DrawingMemory, ADrawingTakesWhatIsForetold) {
             settings.outlines = outlines;
             const double taken = most_bytes_of([&] {
                 const DrawnScene drawn = draw_scene(scene, camera, picture, settings);
-                if (outlines == FaceOutlines::later)
+                if (settings.outlines == FaceOutlines::later)
                     write_uncommitted(drawn.drawing);
                 else
                     EXPECT_GT(svg_of(drawn.drawing).size(), 0U);
