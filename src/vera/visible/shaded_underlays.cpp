@@ -24,7 +24,7 @@ namespace {
 constexpr std::size_t least_regions = 3;
 
 /// Whose light is told by one gradient, however much it differs.
-constexpr std::size_t few_regions = 16;
+constexpr std::size_t few_regions = 4;
 
 /// By how much an underlay may differ from the light in the middles of regions, 1 for 255. What
 /// comes through of it is a quarter, where two edges share a pixel.
