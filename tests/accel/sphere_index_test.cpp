@@ -309,20 +309,22 @@ TEST(SphereIndex, LeavesOutWhatIsNoSphere) {
     EXPECT_FALSE(none.meets_any({.origin = {-1, 0.25F, 0}, .direction = {1, 0, 0}}));
 }
 
+/// Of nearest hits of all rays.
+SphereQueryCounts counts_of(const SampleSpheres& spheres, const std::vector<IndexRay>& rays) {
+    SphereQueryCounts counts;
+    std::vector<SphereHit> hits(rays.size());
+    SphereIndex(spheres).nearest_hits(rays, hits, &counts);
+    return counts;
+}
+
 TEST(SphereIndex, IsNotSlowedDownByWhatItLeavesOut) {
     SampleSpheres spheres = random_spheres(1, 500);
     const std::vector<IndexRay> rays = random_mesh_rays(2, places_about(spheres), 200);
-    const auto counted = [&] {
-        SphereQueryCounts counts;
-        std::vector<SphereHit> hits(rays.size());
-        SphereIndex(spheres).nearest_hits(rays, hits, &counts);
-        return counts;
-    };
-    const SphereQueryCounts before = counted();
+    const SphereQueryCounts before = counts_of(spheres, rays);
     constexpr float huge = std::numeric_limits<float>::max();
     spheres.push_back({huge, huge, huge, -1});
     spheres.push_back({huge, std::nanf(""), 0, 1});
-    const SphereQueryCounts after = counted();
+    const SphereQueryCounts after = counts_of(spheres, rays);
     EXPECT_EQ(after.nodes, before.nodes);
     EXPECT_EQ(after.spheres, before.spheres);
     EXPECT_GT(before.spheres, 0U);
@@ -336,15 +338,9 @@ TEST(SphereIndex, FindsWhatIsSmallBesideWhatIsHugeInNoMoreSteps) {
         const auto up = static_cast<float>(i / 16) / 16;
         rays.push_back({.origin = {3, 0.25F, 0.5F}, .direction = {-3, side - 0.75F, up - 1}});
     }
-    const auto counted = [&] {
-        SphereQueryCounts counts;
-        std::vector<SphereHit> hits(rays.size());
-        SphereIndex(spheres).nearest_hits(rays, hits, &counts);
-        return counts;
-    };
-    const SphereQueryCounts before = counted();
+    const SphereQueryCounts before = counts_of(spheres, rays);
     spheres.push_back({0, 0, -1e8F, 0.9e8F});
-    const SphereQueryCounts after = counted();
+    const SphereQueryCounts after = counts_of(spheres, rays);
     EXPECT_LT(static_cast<double>(after.nodes), 1.1 * static_cast<double>(before.nodes));
     EXPECT_LE(after.spheres, before.spheres + rays.size()); // the huge one
 }
