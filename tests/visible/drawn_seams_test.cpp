@@ -74,6 +74,25 @@ void add_rectangle(Scene& scene, Vec3 lower, Vec3 upper, double grey) {
     scene.materials.push_back(material);
 }
 
+/// Two walls that meet at one corner, beyond which a crack of half a hundredth of a pixel opens.
+TEST(DrawnSeams, LieOnUnderlaysWithoutCracks) {
+    for (const DrawingStyle style : {DrawingStyle::flat, DrawingStyle::shaded}) {
+        Scene scene;
+        add_wall(scene, 0, 2, 0.5);
+        const double crack = 0.005 / per_unit;
+        add_polygon(scene.geometry, {{-2, -2, 0}, {2, -2, 0}, {2, -crack, 0}, {-2, 0, 0}});
+        add_polygon(scene.geometry, {{-2, -2, 0}, {-2, 2, 0}, {-2.5, 0, 0}});
+        number_primitives(scene);
+        DrawSettings settings;
+        settings.style = style;
+        const Drawing drawing = draw_scene(scene, camera_from_the_front(), {}, settings).drawing;
+        ASSERT_EQ(drawing.fills.front().id, "underlay");
+        const DrawingPoint in_crack = {400, 256.002};
+        EXPECT_NE(
+            testing::turns_about(testing::flattened_rings(drawing.fills.front()), in_crack), 0);
+    }
+}
+
 TEST(DrawnSeams, EndAtCornersAsFarFromTheOneBorderAsFromTheOther) {
     // White below, black on the left, and grey, painted last, in the corner between them: black
     // that goes on below all of a strip of grey comes through where grey's edge along white is

@@ -8,6 +8,7 @@
 #include "vera/visible/gradient_fit.h"
 #include "vera/visible/half_plane.h"
 #include "vera/visible/region_light.h"
+#include "vera/visible/without_cracks.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -22,9 +23,6 @@ namespace {
 
 /// Of two regions the one goes on below the other, and nothing comes through.
 constexpr std::size_t least_regions = 3;
-
-/// Whose light is told by one gradient, however much it differs.
-constexpr std::size_t few_regions = 4;
 
 /// By how much an underlay may differ from the light in the middles of regions, 1 for 255. What
 /// comes through of it is a quarter, where two edges share a pixel.
@@ -70,7 +68,7 @@ public:
         if (rings.empty())
             return;
         const FittedPaint best = best_fit(samples, fitted_);
-        if (best.error <= rough_ || samples.size() < few_regions) {
+        if (best.error <= rough_ || samples.size() < 2) {
             add(rings, best);
             return;
         }
@@ -137,7 +135,8 @@ std::vector<FilledOutline> shaded_underlays(
             return;
         std::vector<BorderRing> rings;
         for (const std::vector<std::uint32_t>& way : areas.outlines[i])
-            rings.push_back(regions.border(way));
+            if (BorderRing ring = without_cracks(regions.border(way)); !ring.empty())
+                rings.push_back(std::move(ring));
         UnderlayPainter painter(sources.color_tolerance, regions.curves().all(), cancel);
         painter.paint(rings, samples[i]);
         underlays[i] = painter.take();

@@ -4,6 +4,7 @@
 #include "vera/base/long_loop.h"
 #include "vera/base/progress_part.h"
 #include "vera/visible/covered_areas.h"
+#include "vera/visible/without_cracks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -67,7 +68,7 @@ std::vector<FilledOutline> underlays(
         underlay.id = "underlay";
         underlay.color = sums[i].mean();
         for (const std::vector<std::uint32_t>& ring : areas.outlines[i])
-            add_ring(regions.border(ring), regions.curves().all(), underlay);
+            add_ring(without_cracks(regions.border(ring)), regions.curves().all(), underlay);
     }
     return result;
 }
