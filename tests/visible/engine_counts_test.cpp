@@ -115,6 +115,30 @@ ScreenScene disc(std::size_t count) {
     return scene;
 }
 
+/// Squares one behind the other, each a bit beside the one before it, so that something is seen of
+/// all of them.
+ScreenScene pile(std::size_t count) {
+    ScreenScene scene;
+    const auto squares = static_cast<std::int32_t>(count / 2);
+    const std::int32_t wide = screen_size / 2;
+    const std::int32_t spacing = screen_size / 2 / squares;
+    for (std::int32_t i = 0; i < squares; ++i) {
+        const auto first = static_cast<std::uint32_t>(scene.vertices.size());
+        const std::int32_t x = i * spacing;
+        const std::int32_t y = i * (spacing / 2); // so that no diagonal lies on another one
+        for (const ScreenPoint point :
+             {ScreenPoint{x, y},
+              ScreenPoint{x + wide, y},
+              ScreenPoint{x + wide, y + wide},
+              ScreenPoint{x, y + wide}})
+            scene.vertices.push_back({point, 1000 + 100 * std::int64_t{i}});
+        const auto source = static_cast<std::uint32_t>(i);
+        add_triangle(scene, {first, first + 1, first + 2}, source);
+        add_triangle(scene, {first, first + 2, first + 3}, source);
+    }
+    return scene;
+}
+
 CellCounts counted_cells(const ScreenScene& scene) {
     CellCounts counts;
     cell_raster(scene, {}, nullptr, {}, &counts);
@@ -196,6 +220,15 @@ TEST(EngineCounts, OfEdgesWithinALargeFaceAreFew) {
         EXPECT_LT(
             counts.looked_at + counts.candidates + counts.events + counts.active, size * size / 4)
             << size;
+    }
+}
+
+TEST(EngineCounts, OfAPileGrowWithTheEventsAlongItsEdges) {
+    // Of what lies one behind the other along an edge, the nearest alone is looked at again and
+    // again.
+    for (const std::size_t size : sizes(60)) {
+        const CellCounts counts = counted_cells(pile(size));
+        EXPECT_LT(counts.active, 3 * counts.events) << size;
     }
 }
 

@@ -12,6 +12,9 @@ namespace {
 /// Places as doubles tell them apart from here on: they are off by 2^-52.
 constexpr double surely_apart = 1e-14;
 
+/// So few covers that to leave some out takes longer than to look at them.
+constexpr std::size_t few_covers = 8;
+
 } // namespace
 
 void EdgeSweep::sort_events() {
@@ -33,6 +36,7 @@ void EdgeSweep::sort_events() {
 /// Before the first event.
 void EdgeSweep::start_events() {
     active_.clear();
+    left_out_.clear();
     ending_shadows_.clear();
     hidden_by_ = no_cover;
     is_hidden_here_ = false;
@@ -55,7 +59,7 @@ void EdgeSweep::change_active(const Event& event) {
         is_hidden_here_ = event.kind == Event::begins;
         return;
     }
-    const Cover& cover = covers_[event.number];
+    Cover& cover = covers_[event.number];
     const bool begins = event.kind == Event::begins;
     if (may_be_shadow_)
         shadows_.change(raster_.scene.triangles[cover.triangle], cover.sides, begins ? 1 : -1);
@@ -65,8 +69,48 @@ void EdgeSweep::change_active(const Event& event) {
     std::vector<std::uint32_t>& active = ends_beside ? ending_shadows_ : active_;
     if (begins)
         active.push_back(event.number);
-    else
+    else if (std::exchange(cover.behind, no_cover) == no_cover)
         active.erase(std::find(active.begin(), active.end(), event.number));
+    if (std::exchange(cover.leaves_others_out, false))
+        bring_back_behind(event.number);
+}
+
+/// Leaves out of the active covers those on both sides that lie behind one of them from the place
+/// on, until either ends: what is seen is no matter of what is surely hidden. By twice the margins
+/// at both ends, so that it is by one of them in all parts between, whatever rounding does.
+void EdgeSweep::leave_out_behind(std::uint32_t foremost, double here) {
+    Cover& nearest = covers_[foremost];
+    const NearnessSlope& front = raster_.slopes[nearest.triangle];
+    const double last = nearest.last.value();
+    std::erase_if(active_, [&](std::uint32_t i) {
+        Cover& cover = covers_[i];
+        if (!cover.is_on_both_sides())
+            return false;
+        const NearnessSlope& slope = raster_.slopes[cover.triangle];
+        const double margin = 2 * (sure_margin(front) + sure_margin(slope));
+        const auto is_behind = [&](double place) {
+            const NearnessPlace at = place_at(place);
+            return front.at(at) - slope.at(at) > margin;
+        };
+        if (!is_behind(here) || !is_behind(std::min(last, cover.last.value())))
+            return false;
+        cover.behind = foremost;
+        nearest.leaves_others_out = true;
+        left_out_.push_back(i);
+        return true;
+    });
+}
+
+/// What was left out behind the cover that ended here, and goes on, is active again.
+void EdgeSweep::bring_back_behind(std::uint32_t ended) {
+    std::erase_if(left_out_, [&](std::uint32_t i) {
+        const std::uint32_t behind = covers_[i].behind;
+        if (behind == ended) {
+            covers_[i].behind = no_cover;
+            active_.push_back(i);
+        }
+        return behind == ended || behind == no_cover;
+    });
 }
 
 /// Whether a surface ends at the edge: else the same one is seen on both sides.
@@ -160,7 +204,12 @@ EdgeSweep::seen_between(double first, double last, Hiding hiding, bool asks_alwa
     const auto cover = [&](std::uint32_t number) {
         return number == SeenBeside::nothing ? nullptr : &covers_[active_[number]];
     };
-    return {cover(seen.left), cover(seen.right)};
+    const std::array<const Cover*, 2> found = {cover(seen.left), cover(seen.right)};
+    // Near open points all that is there is asked.
+    if (active_.size() > few_covers && seen_.foremost() != SeenBeside::nothing
+        && open_parts_.empty())
+        leave_out_behind(active_[seen_.foremost()], first);
+    return found;
 }
 
 EdgeSweep::Seen EdgeSweep::seen(const Cover* nearest, std::uint8_t side) const {

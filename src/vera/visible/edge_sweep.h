@@ -104,6 +104,8 @@ private:
             no_edge; ///< of the triangle's that lies there, where it covers one side
         SegmentPlace first;
         SegmentPlace last;
+        std::uint32_t behind = no_cover; ///< another cover, as long as that leaves this one out
+        bool leaves_others_out = false;
 
         bool is_on_both_sides() const { return sides == (left_side | right_side); }
     };
@@ -154,6 +156,8 @@ private:
     void start_events();
     bool are_at_the_same_place(const Event& a, const Event& b) const;
     void change_active(const Event& event);
+    void leave_out_behind(std::uint32_t foremost, double here);
+    void bring_back_behind(std::uint32_t ended);
     bool has_one_sided() const;
     bool ends_a_shadow_somewhere();
     void find_seen_sources(bool is_of_surfaces);
@@ -200,7 +204,8 @@ private:
     std::vector<std::array<double, 2>> open_parts_; ///< places in cells that hide nothing
     std::vector<SegmentPlace> touches_;             ///< where a triangle has a corner on the edge
     std::vector<Event> events_;
-    std::vector<std::uint32_t> active_; ///< covers by surfaces
+    std::vector<std::uint32_t> active_;   ///< covers by surfaces, but for those that are left out
+    std::vector<std::uint32_t> left_out_; ///< and such as ended since
     ShadowsBeside shadows_;
     std::vector<std::uint32_t> ending_shadows_; ///< active covers of one side by shadows
     std::vector<std::uint32_t> seen_sources_;

@@ -59,6 +59,10 @@ public:
             foremost_ = number;
     }
 
+    /// Of what was added, what covers both sides and surely is the nearest at the first place; or
+    /// nothing.
+    std::uint32_t foremost() const { return foremost_; }
+
     /// Whether triangle a surely hides b all along that part, if both are there.
     bool hides(std::uint32_t a, std::uint32_t b) const {
         return candidate(a, 0).hides(candidate(b, 0));
