@@ -1,4 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cstdint>
+#include <sstream>
+#include <string>
+#include <vector>
+
 #include "drawing/sample_drawing.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -45,6 +51,25 @@ TEST(WriteEps, DefinesGradientsAsPatternsOfLevelThree) {
                   "/Coords[0 0 1 0]/Extend[true true]/Function<</FunctionType 2/Domain[0 1]"
                   "/C0[1 0 0]/C1[0 0 1]/N 1>>>>>>[7.5 0 0 -7.5 .75 21.75]makepattern def\n"));
     EXPECT_THAT(text, HasSubstr("\n/Pattern cs /P0 scn\n1 1 m\n"));
+}
+
+TEST(WriteEps, BreaksLinesOfGradientsOfManyColours) {
+    Drawing drawing = drawing_of_gradients();
+    std::vector<GradientStop>& stops = drawing.fills[0].gradient->stops;
+    stops.clear();
+    for (int i = 0; i <= 60; ++i)
+        stops.push_back({i / 60.0, {static_cast<std::uint8_t>(4 * i), 100, 200}});
+    std::istringstream lines(written(write_eps, drawing));
+    std::size_t longest = 0;
+    std::size_t functions = 0;
+    for (std::string line; std::getline(lines, line);) {
+        longest = std::max(longest, line.size());
+        for (std::size_t at = 0; (at = line.find("/N", at)) != std::string::npos; ++at)
+            ++functions;
+    }
+    EXPECT_LE(longest, 255U);
+    EXPECT_GT(longest, 240U);
+    EXPECT_GE(functions, 60U); // no word is broken
 }
 
 TEST(WriteEps, IsAWholeFileForAnEmptyDrawing) {

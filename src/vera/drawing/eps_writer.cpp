@@ -4,12 +4,35 @@
 #include "vera/drawing/page_content.h"
 
 #include <cmath>
+#include <cstddef>
+#include <string>
 
 #include <fmt/format.h>
 
 namespace vera {
 
 using namespace detail;
+
+namespace {
+
+/// The words in lines that are as long as DSC lets them be (Adobe 1992, Document Structuring
+/// Conventions 3.0, section 3): blanks become ends of lines.
+std::string in_lines(std::string words) {
+    constexpr std::size_t longest = 255;
+    std::size_t begin = 0; // of the line
+    std::size_t last_blank = 0;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        if (words[i] == ' ')
+            last_blank = i;
+        if (i - begin == longest && last_blank > begin) {
+            words[last_blank] = '\n';
+            begin = last_blank + 1;
+        }
+    }
+    return words;
+}
+
+} // namespace
 
 void write_eps(
     const Drawing& drawing,
@@ -59,11 +82,12 @@ void write_eps(
         width,
         height);
     for (std::size_t i = 0; i < gradients.count(); ++i)
-        bytes += fmt::format(
-            "/P{} <<{}>>{}makepattern def\n",
-            i,
-            shading_pattern(gradients[i]),
-            pattern_matrix(gradients[i], page, drawing.width));
+        bytes += in_lines(fmt::format(
+                     "/P{} <<{}>>{}makepattern def",
+                     i,
+                     shading_pattern(gradients[i]),
+                     pattern_matrix(gradients[i], page, drawing.width)))
+            + "\n";
     const PageMarks marks = {
         [](std::size_t, const std::string& name) { return "% " + plain_line(name) + "\n"; },
         "",
