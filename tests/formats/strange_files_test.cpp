@@ -25,6 +25,7 @@ namespace vera {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 /// A file that is gone at the end of its scope.
 class ScratchFile {
@@ -100,6 +101,34 @@ std::vector<Diagnostic> errors(const Format& format, const std::string& bytes) {
         return error.diagnostics();
     }
     return {};
+}
+
+TEST(StrangeFiles, InUtf16AreToldAsSuch) {
+    const struct {
+        std::string mark;
+        std::size_t place_of_zero;
+        const char* name;
+    } encodings[] = {
+        {"\xff\xfe", 1, "UTF-16"},
+        {"\xfe\xff", 0, "UTF-16"},
+        {"", 1, "UTF-16LE"},
+        {"", 0, "UTF-16BE"}};
+
+    for (const Format& format : formats()) {
+        if (std::string(format.extension) == ".stl") // a zero tells of a binary file
+            continue;
+        for (const auto& [mark, place_of_zero, name] : encodings) {
+            std::string wide = mark;
+            for (const char letter : format.beginning)
+                wide += place_of_zero == 1 ? std::string{letter, '\0'} : std::string{'\0', letter};
+            const auto said = errors(format, wide);
+            ASSERT_EQ(said.size(), 1U) << format.extension;
+            EXPECT_EQ(said[0].problem, "the file is in UTF-16");
+            EXPECT_THAT(said[0].remedy, HasSubstr(fmt::format("iconv -f {} -t UTF-8", name)));
+        }
+    }
+    // Zeros alone are none.
+    EXPECT_THAT(errors(formats()[0], std::string(64, '\0'))[0].problem, Not(HasSubstr("UTF-16")));
 }
 
 TEST(StrangeFiles, OfBinaryJunkAreToldByEveryReader) {

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <string>
+#include <string_view>
 #include <system_error>
 
 #include <fcntl.h>
@@ -138,6 +140,40 @@ Diagnostic SourceText::diagnostic(
         .remedy = std::move(remedy),
         .line = line_at(offset),
         .length = length};
+}
+
+namespace {
+
+/// The name by which iconv knows the encoding, or null where it is not UTF-16.
+const char* name_of_utf16(std::string_view text) {
+    using namespace std::string_view_literals;
+    if (text.starts_with("\xff\xfe"sv) || text.starts_with("\xfe\xff"sv))
+        return "UTF-16";
+    constexpr std::size_t least = 4;
+    constexpr std::size_t looked_at = 64;
+    const std::string_view beginning = text.substr(0, std::min(text.size() / 2 * 2, looked_at));
+    if (beginning.size() < least)
+        return nullptr;
+    const auto is_of_order = [&](std::size_t place_of_zero) {
+        for (std::size_t i = 0; i < beginning.size(); ++i)
+            if ((beginning[i] == '\0') != (i % 2 == place_of_zero))
+                return false;
+        return true;
+    };
+    return is_of_order(1) ? "UTF-16LE" : is_of_order(0) ? "UTF-16BE" : nullptr;
+}
+
+} // namespace
+
+void refuse_utf16(const SourceText& text) {
+    const char* const name = name_of_utf16(text.text());
+    if (name == nullptr)
+        return;
+    throw InputError(
+        {{.place = {text.name(), 1, 1},
+          .problem = "the file is in UTF-16",
+          .remedy =
+              std::string("save it as UTF-8, or convert it: iconv -f ") + name + " -t UTF-8"}});
 }
 
 } // namespace vera

@@ -57,6 +57,10 @@ private:
     void* mapping_ = nullptr;
 };
 
+/// Throws InputError where the text is in UTF-16, as some editors save it: where it begins with
+/// that encoding's mark, or every other byte at its beginning is zero.
+void refuse_utf16(const SourceText& text);
+
 /// What has been read of a text that is read from front to back: its memory is given back now and
 /// then, so that a text and what is made of it are never in memory as a whole both.
 class SpentText {

@@ -3,6 +3,7 @@
 
 #include "vera/formats/number.h"
 #include "vera/formats/source_report.h"
+#include "vera/formats/source_text.h"
 #include "vera/math/vec3.h"
 
 #include <cmath>
@@ -36,8 +37,10 @@ public:
         , begin_(report.source().text().data())
         , at_(begin_ + offset)
         , end_(begin_ + report.source().text().size()) {
-        if (offset == 0)
-            at_ += encoding_mark_length(report.source().text());
+        if (offset > 0)
+            return;
+        refuse_utf16(report.source());
+        at_ += encoding_mark_length(report.source().text());
     }
 
     bool at_end() const { return at_ == end_; }

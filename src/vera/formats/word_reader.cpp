@@ -93,6 +93,7 @@ WordReader::WordReader(const SourceText& text, Complaints& complaints)
     , end_(at_ + text.text().size())
     , line_begin_(at_)
     , spent_(text) {
+    refuse_utf16(text);
     // Some editors begin a text with a mark of its encoding.
     if (text.text().substr(0, 3) == "\xef\xbb\xbf")
         at_ += 3;
