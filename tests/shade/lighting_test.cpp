@@ -151,6 +151,33 @@ TEST(Lighting, APatchBlocksLightBehindItsOwnFace) {
     EXPECT_FALSE(is_black(unshadowed(at, material, light)));
 }
 
+TEST(Lighting, ALightInThePlaneOfAFaceGivesNothingWhateverRounds) {
+    Material material;
+    material.drf = {1, 1, 1};
+    material.arf = {1, 1, 1};
+    const Vec3 along = {2, -1, 0};
+    const Vec3 across = {3, 0, -1};
+    const Vec3 corner = {0.1, 0.1, 0.1};
+    SurfacePoint surface;
+    surface.geometric_normal = normalized({1, 2, 3});
+    PointLight light;
+    light.position = corner + 0.3 * along + 0.2 * across;
+    std::size_t before_by_rounding = 0;
+    for (int i = 0; i < 400; ++i) {
+        surface.point = corner + (i % 20) / 70.0 * along - (i / 20) / 90.0 * across;
+        surface.point_error = 0x1p-50;
+        const Vec3 to_light = light.position - surface.point;
+        surface.shading_normal = normalized(surface.geometric_normal + 0.1 * to_light);
+        before_by_rounding += dot(to_light, surface.geometric_normal) > 0 ? 1 : 0;
+        const Incidence at = incidence(surface, -surface.geometric_normal);
+        ASSERT_TRUE(is_black(unshadowed(at, material, light))) << i;
+    }
+    EXPECT_GT(before_by_rounding, 0U); // these would be lit
+    light.position = light.position + 0x1p-40 * surface.geometric_normal;
+    const Incidence at = incidence(surface, -surface.geometric_normal);
+    EXPECT_FALSE(is_black(unshadowed(at, material, light)));
+}
+
 TEST(Lighting, VisibilityDimsDiffuseLightAndHighlightByColour) {
     const LightTerms terms = {{1, 2, 4}, {8, 16, 32}};
     EXPECT_EQ((Color{1, 0.5, 0} * terms), (LightTerms{{1, 1, 0}, {8, 8, 0}}));

@@ -108,7 +108,7 @@ private:
         result.cos_normal = dot(result.to_light, at.normal);
         result.cos_viewer = dot(result.to_light, at.to_viewer);
         result.cos_mirrored = dot(result.to_light, at.mirrored);
-        result.behind = !(dot(to_light, at.normal) > 0) || dot(to_light, at.geometric_normal) < 0;
+        result.behind = !is_lit_from(at, to_light);
         const double strength = light.falloff == Falloff::inverse_square
             ? light.intensity / result.distance / result.distance
             : light.intensity;

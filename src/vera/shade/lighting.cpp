@@ -11,6 +11,7 @@ namespace vera {
 Incidence incidence(const SurfacePoint& surface, Vec3 ray_direction) {
     Incidence at;
     at.point = surface.point;
+    at.point_error = surface.point_error;
     at.to_viewer = -ray_direction;
 
     at.from_outside = dot(at.to_viewer, surface.geometric_normal) >= 0;
@@ -30,10 +31,17 @@ double highlight_factor(double x, double spc) {
     return (x - spc) * (x + spc - 2) / (width * width);
 }
 
+bool is_lit_from(const Incidence& at, Vec3 to_light) {
+    // What a light in the plane is off by: at most sqrt(3) of the point's error, and what a
+    // difference and a product of a unit vector round. Without it such a light would reach some
+    // places and others not, at random.
+    const double rounding = 2 * at.point_error + 0x1p-48 * max_component(abs(to_light));
+    return dot(to_light, at.normal) > 0 && dot(to_light, at.geometric_normal) > rounding;
+}
+
 LightTerms unshadowed(const Incidence& at, const Material& material, const PointLight& light) {
     const Vec3 to_light = light.position - at.point;
-    // A patch's normal may be inclined to a light behind the patch, which its own face then blocks.
-    if (!(dot(to_light, at.normal) > 0) || dot(to_light, at.geometric_normal) < 0)
+    if (!is_lit_from(at, to_light))
         return {};
 
     const double distance = length(to_light);

@@ -16,16 +16,21 @@ namespace vera {
 /// unit, turned to the side that the ray comes from.
 struct Incidence {
     Vec3 point;
-    Vec3 to_viewer;        ///< R: back along the ray
-    Vec3 normal;           ///< N: R.N >= 0; of patches the interpolated one
-    Vec3 geometric_normal; ///< of the face itself, turned to the side of R
-    Vec3 mirrored;         ///< S: R mirrored at N
-    double cos_viewer = 1; ///< R.N
+    double point_error = 0; ///< as of a SurfacePoint
+    Vec3 to_viewer;         ///< R: back along the ray
+    Vec3 normal;            ///< N: R.N >= 0; of patches the interpolated one
+    Vec3 geometric_normal;  ///< of the face itself, turned to the side of R
+    Vec3 mirrored;          ///< S: R mirrored at N
+    double cos_viewer = 1;  ///< R.N
     bool from_outside = true;
 };
 
 /// ray_direction is a unit vector.
 Incidence incidence(const SurfacePoint& surface, Vec3 ray_direction);
+
+/// Whether the light, so far from the point, is on the side of R, both of N and of the face itself,
+/// which blocks the light behind it. One in the face's plane, as far as rounding tells, is not.
+bool is_lit_from(const Incidence& at, Vec3 to_light);
 
 /// Dif and Spk of one light.
 struct LightTerms {

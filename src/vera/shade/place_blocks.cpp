@@ -91,13 +91,16 @@ light_part(const PlaceBlock& block, const LightLanes& light, std::size_t lane, L
     const Vec3s to_light = light.position - rows(block.point, lane);
     const Vec3s normal = rows(block.normal, lane);
     const Vec across = dot(to_light, normal);
+    const Vec largest = largest_component(to_light);
+    // As is_lit_from().
+    const Vec rounding =
+        hn::Add(hn::Mul(all(2), row(block.point_error, lane)), hn::Mul(all(0x1p-48), largest));
     const Mask in_front = hn::And(
         hn::Gt(across, all(0)),
-        hn::Not(hn::Lt(dot(to_light, rows(block.geometric_normal, lane)), all(0))));
+        hn::Gt(dot(to_light, rows(block.geometric_normal, lane)), rounding));
     if (hn::AllFalse(Doubles(), in_front))
         return 0;
 
-    const Vec largest = largest_component(to_light);
     const Mask usual = has_usual_length(largest);
     const Vec distance = hn::Sqrt(dot(to_light, to_light));
     const Vec3s light_direction = to_light / distance;
@@ -269,6 +272,7 @@ HWY_EXPORT(refract_kernel);
 Incidence incidence_at(const PlaceBlock& block, std::size_t lane) {
     Incidence at;
     at.point = vector_at(block.point, lane);
+    at.point_error = block.point_error[lane];
     at.to_viewer = vector_at(block.to_viewer, lane);
     at.normal = vector_at(block.normal, lane);
     at.geometric_normal = vector_at(block.geometric_normal, lane);

@@ -5,6 +5,7 @@
 #include "vera/shade/firmament.h"
 #include "vera/shade/lighting.h"
 #include "vera/visible/drawn_color.h"
+#include "vera/visible/region_light.h"
 #include "vera/visible/tones.h"
 
 #include <algorithm>
@@ -35,6 +36,7 @@ Color light_of_face(const FillSources& sources, std::uint32_t face, const Visibl
     const double speed = dot(normal, ray.direction);
     SurfacePoint surface;
     surface.point = speed == 0 ? a : point_at(ray, dot(normal, a - ray.origin) / speed);
+    surface.point_error = error_of_seen(ray, surface.point);
     surface.geometric_normal = surface.shading_normal = normal;
     surface.material = facet.material;
     const Material& material = material_of(sources.scene, facet.material);

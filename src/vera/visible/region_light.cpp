@@ -79,7 +79,8 @@ RegionLight::RegionLight(
 
 Color RegionLight::operator()(DrawingPoint point) const {
     const Ray ray = rays_.ray(point.x / width_, point.y / height_);
-    const SurfacePoint surface = convexity_ == Convexity::none ? on_facet(ray) : on_body(ray);
+    SurfacePoint surface = convexity_ == Convexity::none ? on_facet(ray) : on_body(ray);
+    surface.point_error = std::max(surface.point_error, error_of_seen(ray, surface.point));
     const Material& material = material_of(scene_, facet_.material);
     const Incidence at = incidence(surface, ray.direction);
     LocalTerms terms = unlit(at, material, ambient_);
@@ -87,6 +88,10 @@ Color RegionLight::operator()(DrawingPoint point) const {
         if (contains(lights_, i))
             terms += unshadowed(at, material, scene_.lights[i]);
     return clamped(sum(terms));
+}
+
+double error_of_seen(const Ray& ray, Vec3 point) {
+    return 0x1p-50 * (max_component(abs(ray.origin)) + max_component(abs(point)));
 }
 
 SurfacePoint RegionLight::at(Vec3 point, Vec3 local_normal) const {

@@ -62,4 +62,8 @@ private:
     LightSet lights_;
 };
 
+/// How far rounding may have moved the place, along any axis, that a ray of the picture sees of a
+/// plane face: unlike where other rays end, it is not moved onto the face.
+double error_of_seen(const Ray& ray, Vec3 point);
+
 } // namespace vera
