@@ -157,9 +157,7 @@ void refuse_what_cannot_be_fixed(const Request& request) {
         throw CommandLineError("--write says where --fix writes the scene: give --fix too");
     if (!request.fix)
         return;
-    const SceneFormat format =
-        scene_format_named(request.scene.format).value_or(scene_format_of(request.scene.path));
-    if (request.scene.path == "-" || format != SceneFormat::vera)
+    if (request.scene.path == "-" || format_of(request.scene) != SceneFormat::vera)
         throw CommandLineError("--fix changes the text of a scene in the VERA language; save it as "
                                "a .vera file first");
     if (request.json)

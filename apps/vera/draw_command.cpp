@@ -179,9 +179,21 @@ private:
     std::vector<bool> is_called_;       ///< likewise; not by one that nobody calls
 };
 
+/// What makes a material opaque that a file of that format has.
+const char* words_for_opaque(SceneFormat format) {
+    switch (format) {
+    case SceneFormat::obj:
+        return "'d 1' in the MTL file";
+    case SceneFormat::nff:
+        return "a T of 0 behind 'f'";
+    default:
+        return "TAB 0 0 0";
+    }
+}
+
 /// Tells once where a drawing shows something else than the lighting formula gives for what the
 /// viewer meets first: of materials that let light through. Where the first of them is used.
-std::optional<Diagnostic> transparency_warning(const Scene& scene) {
+std::optional<Diagnostic> transparency_warning(const Scene& scene, SceneFormat format) {
     const SeenThrough seen(scene);
     const Item* const first = seen.first;
     const std::set<MaterialId>& materials = seen.materials;
@@ -196,7 +208,9 @@ std::optional<Diagnostic> transparency_warning(const Scene& scene) {
         "{} lets light through{}, and a drawing shows nothing through it and no shadow of it",
         name.empty() ? "the material" : "material " + shown(name),
         materials.size() > 1 ? fmt::format(" (as {} more)", materials.size() - 1) : "");
-    warning.remedy = "'vera render' follows the light, and TAB 0 0 0 makes the material opaque";
+    warning.remedy = fmt::format(
+        "'vera render' follows the light, and {} makes the material opaque",
+        words_for_opaque(format));
     return warning;
 }
 
@@ -453,7 +467,7 @@ void draw(const Request& request, Console& console) {
     PreparedScene prepared = prepared_scene(request.scene);
     print_diagnostics(prepared.warnings, console);
     if (has_fills(settings.style) && settings.style != DrawingStyle::ids)
-        if (const auto warning = transparency_warning(prepared.scene))
+        if (const auto warning = transparency_warning(prepared.scene, format_of(request.scene)))
             print_diagnostics({&*warning, 1}, console);
     keep_what_was_read(request.scene, prepared.scene, "--output", request.output);
     if (memory)
@@ -485,7 +499,7 @@ void draw(const Request& request, Console& console) {
     if (points > 0)
         print_check(report.check, console);
     if (request.json)
-        fmt::print(request.output == "-" ? stderr : stdout, "{}\n", as_json(report, drawn).dump(2));
+        print_report(as_json(report, drawn).dump(2), request.output);
     else
         print_note(
             fmt::format(

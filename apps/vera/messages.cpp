@@ -93,6 +93,13 @@ void print_note(std::string_view message, const Console& console) {
         print_message(fmt::format("{}\n", message));
 }
 
+void print_report(std::string_view json, std::string_view output) {
+    if (output == "-")
+        print_message(fmt::format("{}\n", json));
+    else
+        fmt::print("{}\n", json);
+}
+
 std::string to_json(std::span<const Diagnostic> diagnostics) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     std::size_t errors = 0;

@@ -27,6 +27,10 @@ void print_error(std::string_view message, const Console& console);
 /// Prints a line to stderr unless the console is quiet.
 void print_note(std::string_view message, const Console& console);
 
+/// Prints what --json tells of an output: to stdout or, where that is the output ("-"), to stderr,
+/// which may be closed: the output is good without.
+void print_report(std::string_view json, std::string_view output);
+
 /// Whether stderr gets colours: as asked for, else on a terminal unless NO_COLOR is set.
 bool uses_color(const Console& console);
 

@@ -73,6 +73,10 @@ Diagnostic diagnostic_of(
     return diagnostic;
 }
 
+SceneFormat format_of(const SceneRequest& request) {
+    return scene_format_named(request.format).value_or(scene_format_of(request.path));
+}
+
 void add_scene_options(CLI::App& command, SceneRequest& request) {
     command
         .add_option(
@@ -111,9 +115,8 @@ PreparedScene prepared_scene(const SceneRequest& request) {
     prepared.scene = std::move(file.scene);
     prepared.warnings = std::move(file.warnings);
     prepared.settings = picture_settings(request.picture, prepared.scene, prepared.warnings);
-    const SceneFormat format =
-        scene_format_named(request.format).value_or(scene_format_of(request.path));
-    if (!prepared.scene.camera && !prepared.settings.frame_margin && format == SceneFormat::vera)
+    if (!prepared.scene.camera && !prepared.settings.frame_margin
+        && format_of(request) == SceneFormat::vera)
         prepared.warnings.push_back(no_camera(prepared.scene));
     prepared.camera = camera_of(prepared.scene, prepared.settings);
     if (!prepared.scene.camera && prepared.scene.lights.empty())

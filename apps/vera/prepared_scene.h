@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "vera/formats/read_scene.h"
 #include "vera/scene/scene.h"
 
 #include <optional>
@@ -22,6 +23,9 @@ struct SceneRequest {
     std::string format; ///< of the scene; empty: by the path
     PictureOptions picture;
 };
+
+/// The format in which the scene is read.
+SceneFormat format_of(const SceneRequest& request);
 
 /// SCENE, --scene-format and the picture's options.
 void add_scene_options(CLI::App& command, SceneRequest& request);

@@ -360,7 +360,7 @@ void render(const Request& request, const Console& console) {
     show_preview(result.image, request.preview, console);
 
     if (request.json)
-        fmt::print(request.output == "-" ? stderr : stdout, "{}\n", as_json(report).dump(2));
+        print_report(as_json(report).dump(2), request.output);
     else
         print_note(as_text(report, request), console);
     if (report.generations && !request.json)

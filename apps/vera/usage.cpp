@@ -4,8 +4,10 @@
 #include "vera/base/similar_words.h"
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <optional>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -75,6 +77,26 @@ std::string synopsis(const CLI::App& command) {
     return text;
 }
 
+/// Whether other programs take the size of a picture by this word: "--width", "-W640", and "+W640"
+/// of POV-Ray.
+bool is_size_elsewhere(const std::string& word) {
+    constexpr std::array<std::string_view, 12> names = {
+        "--width",
+        "--height",
+        "--size",
+        "--resolution",
+        "--res",
+        "-w",
+        "-W",
+        "-H",
+        "+w",
+        "+W",
+        "+h",
+        "+H"};
+    const std::string name = word.substr(0, word.find_last_not_of("0123456789xX") + 1);
+    return std::ranges::find(names, name) != names.end();
+}
+
 /// "unknown option '--rastr'; did you mean '--raster'?"
 std::string unknown_word(const CLI::App& command, const std::string& word) {
     const bool option = word.size() > 1 && word.front() == '-';
@@ -83,6 +105,8 @@ std::string unknown_word(const CLI::App& command, const std::string& word) {
     // Of "--rastr=5x5" the name; "-=5" is what stands behind a short option that takes no value.
     const std::string name = word.starts_with("-=") ? word : word.substr(0, word.find('='));
     const std::string problem = fmt::format("unknown {} '{}'", what, name);
+    if (is_size_elsewhere(name) && command.get_option_no_throw("--raster") != nullptr)
+        return problem + "; the size is given by --raster, as in --raster 640x480";
     if (const auto similar = most_similar(name, known_words(command)))
         return fmt::format("{}; did you mean '{}'?", problem, *similar);
     if (option && command.get_option_no_throw(name) != nullptr)

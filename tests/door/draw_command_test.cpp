@@ -106,6 +106,12 @@ TEST(DrawCommand, GoesOnWhereNobodyHearsItsMessages) {
             continue;
         EXPECT_EQ(run_vera(folder, "draw a.vera -o b.svg --progress json " + stream).exit_code, 0);
         EXPECT_EQ(folder.read("b.svg"), folder.read("a.svg")) << stream;
+        // The report of a drawing on standard output is a message too.
+        if (!stream.starts_with(">&-")) {
+            const std::string piped = "draw a.vera --format svg -o - --json >c.svg " + stream;
+            EXPECT_EQ(run_vera(folder, piped).exit_code, 0) << stream;
+            EXPECT_EQ(folder.read("c.svg"), folder.read("a.svg")) << stream;
+        }
         EXPECT_EQ(run_vera(folder, "draw b.vera -o a.svg " + stream).exit_code, 3) << stream;
         EXPECT_EQ(run_vera(folder, "draw a.vera " + stream).exit_code, 2) << stream;
     }

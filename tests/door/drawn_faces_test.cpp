@@ -215,6 +215,25 @@ TEST(DrawCommand, WarnsOnceOfWhatLetsLightThrough) {
     }
 }
 
+TEST(DrawCommand, TellsWhatMakesMaterialsOpaqueInTheFormatOfTheScene) {
+    const ScratchFolder folder;
+    folder.write("a.mtl", "newmtl glass\nd 0.5\n");
+    folder.write("a.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl glass\nf 1 2 3\n");
+    folder.write(
+        "a.nff",
+        "v\nfrom 0 0 5\nat 0 0 0\nup 0 1 0\nangle 40\nhither 1\nresolution 64 64\n"
+        "f 1 1 1 0.5 0 0 0.5 1\ns 0 0 0 1\n");
+    folder.write("a.vera", view + "MA glass TAB 0.5 0.5 0.5\nCM glass P3 -1 -1 0  1 -1 0  0 1 0\n");
+    for (const auto& [scene, remedy] :
+         {std::pair("a.obj", "'d 1' in the MTL file makes"),
+          std::pair("a.nff", "a T of 0 behind 'f' makes"),
+          std::pair("a.vera", "TAB 0 0 0 makes")}) {
+        const ProgramRun run = run_vera(folder, std::string("draw -o a.svg ") + scene);
+        ASSERT_EQ(run.exit_code, 0) << run.err;
+        EXPECT_TRUE(holds(run.err, remedy + std::string(" the material opaque"))) << run.err;
+    }
+}
+
 TEST(DrawCommand, ShowsNamesOfMaterialsWithoutControlCharacters) {
     const ScratchFolder folder;
     folder.write("a.mtl", "newmtl \x1b[31mred\nd 0.5\n");
