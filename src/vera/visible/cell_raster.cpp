@@ -153,10 +153,11 @@ VisiblePieces cell_raster_after(
     };
     before.unlit.clear();
     std::vector<VisiblePieces> parts;
-    std::vector<std::uint8_t> is_kept;
     {
         const AskedOfRaster asked = [&](CellRaster& of, const Cells& cells) {
             of.is_near_change = edges_in(cells_of_change(change, of, cells), of, cells);
+            // As soon as that is known: what comes takes the room of what is not kept.
+            keep_pieces(kept_pieces(of, before.pieces), before);
             std::vector<std::uint8_t> asked_cells = cells_along(of.is_near_change, of, cells);
             for_each_cell_of_points(open, cells, [&](std::size_t cell) {
                 if (asked_cells[cell] != not_asked)
@@ -169,7 +170,6 @@ VisiblePieces cell_raster_after(
         if (raster.may_be_unlit())
             for (const VisiblePiece& piece : before.pieces)
                 before.unlit.push_back({unlit(piece.left), unlit(piece.right)});
-        is_kept = kept_pieces(raster, before.pieces);
         check_memory(raster, before.pieces, expect, cancel);
         follow_edges(
             raster,
@@ -180,7 +180,6 @@ VisiblePieces cell_raster_after(
             parts);
     }
     const auto penetrating = std::move(before.penetrating);
-    keep_pieces(is_kept, before);
     VisiblePieces result = merged(std::move(before), joined(std::move(parts)));
     for (const auto& [a, b] : penetrating)
         if (is_changed[a] == 0 && is_changed[b] == 0)

@@ -2,10 +2,9 @@
 #include "vera/visible/light_views.h"
 
 #include "vera/base/free_room.h"
-#include "vera/base/long_loop.h"
 #include "vera/base/progress_part.h"
 #include "vera/shade/lighting.h"
-#include "vera/visible/cell_raster.h"
+#include "vera/visible/cell_raster_stages.h"
 #include "vera/visible/edges.h"
 #include "vera/visible/projection.h"
 
@@ -35,9 +34,9 @@ LitFacets::LitFacets(const Scene& scene, const Facets& facets)
 }
 
 void LitFacets::add(const ScreenScene& view, const Progress& progress, const CancelFlag* cancel) {
-    const VisiblePieces pieces = cell_raster(view, progress, cancel);
-    stop_if_raised(cancel);
-    const ScreenEdges edges = screen_edges(view);
+    CellRaster raster = raster_of(view, {}, progress, cancel);
+    free_room(raster.cells.blocked); // which edges were compared with already
+    const ScreenEdges& edges = raster.edges;
     const std::vector<EdgeNeighbours> neighbours = edge_neighbours(view, edges);
     // A surface that is seen beside an edge and goes on behind what is seen on the other side.
     const auto goes_on = [&](std::uint32_t triangle, const VisiblePiece& piece) {
@@ -57,17 +56,35 @@ void LitFacets::add(const ScreenScene& view, const Progress& progress, const Can
         const int state = here[facet] | seen | (is_partly_hidden ? hidden : 0);
         here[facet] = static_cast<std::uint8_t>(state);
     };
-    const LongLoop loop(pieces.pieces.size(), {}, cancel);
-    for (std::size_t i = 0; i < pieces.pieces.size(); ++i) {
-        loop.turn(i);
-        const VisiblePiece& piece = pieces.pieces[i];
-        for (const std::uint32_t triangle : {piece.left, piece.right})
-            if (triangle != no_triangle)
-                add_state(view.triangles[triangle].source, goes_on(triangle, piece));
+    const auto add_states = [&](const VisiblePieces& part) {
+        for (const VisiblePiece& piece : part.pieces)
+            for (const std::uint32_t triangle : {piece.left, piece.right})
+                if (triangle != no_triangle)
+                    add_state(view.triangles[triangle].source, goes_on(triangle, piece));
+        for (const auto& [a, b] : part.penetrating)
+            for (const std::uint32_t triangle : {a, b})
+                add_state(view.triangles[triangle].source, true);
+    };
+    // Nothing asks how the pieces go on in each other: a part of the edges at a time is enough.
+    constexpr std::size_t at_a_time = 65536;
+    const std::size_t count = edges.edges.size();
+    const auto progress_at = [&](std::size_t edge) {
+        return part_of_preparation
+            + (1 - part_of_preparation) * static_cast<double>(edge) / static_cast<double>(count);
+    };
+    std::vector<VisiblePieces> parts;
+    for (std::size_t first = 0, last = 0; first < count; first = last) {
+        last = std::min(count, first + at_a_time);
+        parts.clear();
+        follow_edges(
+            raster,
+            first,
+            last,
+            progress_between(progress, progress_at(first), progress_at(last)),
+            cancel,
+            parts);
+        std::ranges::for_each(parts, add_states);
     }
-    for (const auto& [a, b] : pieces.penetrating)
-        for (const std::uint32_t triangle : {a, b})
-            add_state(view.triangles[triangle].source, true);
     for (const ScreenTriangle& triangle : view.triangles) {
         const int state = here[triangle.source];
         states_[triangle.source] = static_cast<std::uint8_t>(
@@ -105,7 +122,6 @@ LightViews light_views(
         if (view.screen.triangles.empty())
             continue;
         result.cut_nearness = std::max(result.cut_nearness, view.screen.cut_nearness);
-        view.transparent.vertices = view.screen.vertices;
         std::vector<ScreenTriangle>& triangles = view.screen.triangles;
         const auto transparent =
             std::stable_partition(triangles.begin(), triangles.end(), [&](const auto& triangle) {
@@ -113,8 +129,8 @@ LightViews light_views(
             });
         view.transparent.triangles.assign(transparent, triangles.end());
         triangles.erase(transparent, triangles.end());
-        if (view.transparent.triangles.empty())
-            free_room(view.transparent.vertices);
+        if (!view.transparent.triangles.empty())
+            view.transparent.vertices = view.screen.vertices;
         sort_by_place(view.screen, cancel);
         result.lit.add(view.screen, progress_part(progress, i, frames.size()), cancel);
         view.cells = cells_of(view.screen, cancel);

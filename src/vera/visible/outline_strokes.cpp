@@ -446,6 +446,7 @@ void add_strokes(
     const std::vector<CurveDegrees> degrees =
         unite_on_curves(curves, tolerance(sources), cancel, lines.parts, places);
 
+    give_back_freed_memory(); // strokes are many small blocks, beside all that there is
     const StrokeMaker maker(lines.parts, degrees, curves, places);
     const Progress of_classes = next_stage(1);
     for (std::size_t i = 0; i < line_class_names.size(); ++i) {

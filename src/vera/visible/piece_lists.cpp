@@ -3,6 +3,7 @@
 
 #include "vera/base/free_room.h"
 #include "vera/base/parallel.h"
+#include "vera/base/spent_pages.h"
 #include "vera/visible/first_equal.h"
 #include "vera/visible/point_numbers.h"
 
@@ -225,11 +226,9 @@ void keep_pieces(const std::vector<std::uint8_t>& is_kept, VisiblePieces& list) 
         ++kept;
     }
     list.pieces.resize(kept);
+    give_back_unused(list.pieces);
     list.unlit.resize(list.unlit.empty() ? 0 : kept);
-    if (kept > count / 2)
-        return;
-    list.pieces.shrink_to_fit();
-    list.unlit.shrink_to_fit();
+    give_back_unused(list.unlit);
     constexpr std::uint32_t unused = ~std::uint32_t{0};
     std::vector<std::uint32_t> numbers(list.points.size(), unused);
     for (const VisiblePiece& piece : list.pieces)
@@ -241,7 +240,7 @@ void keep_pieces(const std::vector<std::uint8_t>& is_kept, VisiblePieces& list) 
             numbers[i] = points++;
         }
     list.points.resize(points);
-    list.points.shrink_to_fit();
+    give_back_unused(list.points);
     for (VisiblePiece& piece : list.pieces) {
         piece.from = numbers[piece.from];
         piece.to = numbers[piece.to];

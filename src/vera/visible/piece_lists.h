@@ -38,7 +38,8 @@ VisiblePieces joined(std::vector<VisiblePieces> parts, std::size_t others = 0);
 /// has points of its own, so that it can be forgotten before the others.
 std::vector<VisiblePieces> parted(const VisiblePieces& list);
 
-/// Leaves out the other pieces and, where these are most, the points that only they have.
+/// Leaves out the other pieces and the points that only they have. The list keeps its room, but not
+/// the memory of what is not used.
 void keep_pieces(const std::vector<std::uint8_t>& is_kept, VisiblePieces& list);
 
 /// The pieces before, and the ones that were found, which are of other edges, by their edges: as if

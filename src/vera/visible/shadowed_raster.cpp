@@ -4,6 +4,7 @@
 #include "vera/base/free_room.h"
 #include "vera/base/long_loop.h"
 #include "vera/base/progress_part.h"
+#include "vera/base/spent_pages.h"
 #include "vera/visible/cell_raster_stages.h"
 #include "vera/visible/drawing_memory.h"
 #include "vera/visible/piece_lists.h"
@@ -178,13 +179,46 @@ struct KeptVertices {
     std::vector<std::vector<std::size_t>> ends; ///< of the parts, of each light, among these
 };
 
+/// Makes one of the parts from that number on.
+void join_from(std::size_t first, std::vector<VisiblePieces>& parts) {
+    const auto these = parts.begin() + static_cast<std::ptrdiff_t>(first);
+    VisiblePieces one = joined({std::move_iterator(these), std::move_iterator(parts.end())});
+    parts.erase(these, parts.end());
+    parts.push_back(std::move(one));
+}
+
+/// Joins parts in their order whenever they have many pieces: half of the points of small ones are
+/// points of others as well.
+class GrowingParts {
+public:
+    explicit GrowingParts(std::vector<VisiblePieces>& parts)
+        : parts_(parts) {}
+
+    /// When there are further ones.
+    void join() {
+        std::size_t pieces = 0;
+        for (std::size_t i = first_; i < parts_.size(); ++i)
+            pieces += parts_[i].pieces.size();
+        if (pieces < many)
+            return;
+        join_from(first_, parts_);
+        first_ = parts_.size();
+    }
+
+private:
+    static constexpr std::size_t many = 65536;
+
+    std::vector<VisiblePieces>& parts_;
+    std::size_t first_ = 0; ///< of those that are not joined
+};
+
 class ShadowedRaster {
 public:
     ShadowedRaster(
         ScreenScene& screen,
         const std::vector<VisiblePieces>& before,
         bool sees_others,
-        const ThrownShadows& thrown,
+        ThrownShadows& thrown,
         std::size_t at_a_time,
         const Progress& progress,
         const CancelFlag* cancel)
@@ -237,7 +271,7 @@ private:
 
     ScreenScene& screen_;
     const std::vector<VisiblePieces>& before_;
-    const ThrownShadows& thrown_;
+    ThrownShadows& thrown_;
     const CancelFlag* cancel_;
     std::size_t triangles_; ///< surfaces
     std::size_t vertices_;  ///< of these
@@ -322,7 +356,8 @@ ShadowedRaster::follow_surfaces(std::vector<VisiblePieces> before, const Progres
         return triangle == no_triangle ? 0 : screen_.unlit_of(screen_.triangles[triangle].source);
     };
     std::vector<VisiblePieces> parts;
-    const EdgeTriangles edge_triangles = vera::edge_triangles(screen_, raster_.edges);
+    GrowingParts growing(parts);
+    EdgeTriangles edge_triangles = vera::edge_triangles(screen_, raster_.edges);
     SeenBefore seen(screen_, before);
     TakenBefore taken(before);
     FaceBatch batch(thrown_, most_);
@@ -350,17 +385,18 @@ ShadowedRaster::follow_surfaces(std::vector<VisiblePieces> before, const Progres
         if (!kept.pieces.empty()) {
             for (const VisiblePiece& piece : kept.pieces)
                 kept.unlit.push_back({unlit(piece.left), unlit(piece.right)});
-            const auto these = parts.begin() + static_cast<std::ptrdiff_t>(before_these);
-            VisiblePieces found =
-                joined({std::move_iterator(these), std::move_iterator(parts.end())});
-            parts.erase(these, parts.end());
-            parts.push_back(merged(std::move(kept), std::move(found)));
+            join_from(before_these, parts);
+            parts.back() = merged(std::move(kept), std::move(parts.back()));
         }
+        growing.join();
+        give_back_spent(edge_triangles.starts, 0, edge + 1);
+        give_back_spent(edge_triangles.triangles, 0, edge_triangles.starts[edge + 1]);
         first = edge + 1;
     }
     take_out();
     made_ = batch.made();
     free_room(raster_.is_near_change);
+    free_room(is_asked_);
     return parts;
 }
 
@@ -411,9 +447,10 @@ void ShadowedRaster::keep_vertices(
                 numbers[piece.edge.begin - vertices_], numbers[piece.edge.end - vertices_]};
 }
 
-/// The borders of shadows, in parts.
+/// The borders of shadows, in parts. What throws them is forgotten face by face.
 std::vector<VisiblePieces> ShadowedRaster::follow_shadows(const Progress& progress) {
     std::vector<VisiblePieces> parts;
+    GrowingParts growing(parts);
     FaceBatch batch(thrown_, most_);
     const LongLoop loop(thrown_.face_count(), progress, cancel_, 1);
     for (std::uint32_t face = 0; face < thrown_.face_count(); ++face) {
@@ -426,6 +463,8 @@ std::vector<VisiblePieces> ShadowedRaster::follow_shadows(const Progress& progre
         const std::size_t before = parts.size();
         follow_edges(raster_, edges_, raster_.edges.edges.size(), {}, cancel_, parts);
         keep_vertices(lights, std::span(parts).subspan(before));
+        growing.join();
+        thrown_.forget_before(face + 1);
     }
     return parts;
 }
@@ -514,7 +553,7 @@ ShadowedPieces shadowed_cell_raster(
     std::vector<VisiblePieces> parts;
     KeptVertices kept;
     {
-        const ThrownShadows own = std::move(thrown);
+        ThrownShadows own = std::move(thrown);
         std::vector<VisiblePieces> parts_before = parted(before);
         free_room(before.points);
         free_room(before.pieces);

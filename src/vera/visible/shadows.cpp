@@ -3,6 +3,7 @@
 
 #include "vera/base/long_loop.h"
 #include "vera/base/progress_part.h"
+#include "vera/base/spent_pages.h"
 #include "vera/math/box3.h"
 #include "vera/visible/cell_raster.h"
 #include "vera/visible/cells.h"
@@ -431,6 +432,14 @@ std::size_t ThrownShadows::count() const {
     for (const Light& light : lights_)
         count += light.throwing.size();
     return count;
+}
+
+void ThrownShadows::forget_before(std::uint32_t face) {
+    give_back_spent(receivers_, 0, face);
+    for (Light& light : lights_) {
+        const auto next = std::ranges::lower_bound(light.faces, face, {}, &Lit::face);
+        give_back_spent(light.throwing, 0, next->first);
+    }
 }
 
 ShadowCounts add_shadows(

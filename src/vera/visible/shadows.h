@@ -96,6 +96,10 @@ public:
         ScreenScene& screen,
         const CancelFlag* cancel = nullptr) const;
 
+    /// Gives back the memory of what is told of the shadows on the faces before this one, which may
+    /// not be asked for any more.
+    void forget_before(std::uint32_t face);
+
     const ShadowCounts& counts() const { return counts_; }
 
 private:

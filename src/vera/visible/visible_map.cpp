@@ -4,6 +4,7 @@
 #include "vera/base/free_room.h"
 #include "vera/base/long_loop.h"
 #include "vera/base/progress_part.h"
+#include "vera/base/spent_pages.h"
 #include "vera/visible/open_points.h"
 #include "vera/visible/region_numbers.h"
 #include "vera/visible/traced_rings.h"
@@ -270,13 +271,45 @@ following(const Ways& ways, const Progress& progress, const CancelFlag* cancel, 
     return result;
 }
 
+/// What a map is made of and, where that need not be kept, the same to be taken apart.
+struct MapOrigin {
+    const ScreenScene& scene;
+    ScreenScene* given_scene;
+    const VisiblePieces& pieces;
+    VisiblePieces* given_pieces;
+    std::vector<PackedPoint>* given_points;
+    std::vector<UnlitBeside>* given_unlit;
+
+    std::vector<PackedPoint> points() const {
+        if (given_points != nullptr)
+            return std::move(*given_points);
+        return pieces.points;
+    }
+
+    /// These, when there are ways along them: their memory, not their room.
+    void forget_pieces(std::size_t first, std::size_t last) const {
+        if (given_pieces != nullptr)
+            give_back_spent(given_pieces->pieces, first, last);
+    }
+
+    /// When there are all ways.
+    void forget() const {
+        if (given_scene != nullptr) {
+            free_room(given_scene->triangles);
+            free_room(given_scene->vertices);
+        }
+        if (given_pieces != nullptr)
+            free_room(given_pieces->pieces);
+        if (given_unlit != nullptr)
+            free_room(*given_unlit);
+    }
+};
+
 Ways ways_of(
-    const ScreenScene& scene,
-    const VisiblePieces& pieces,
-    const Progress& progress,
-    const CancelFlag* cancel,
-    VisibleMap& map) {
+    const MapOrigin& origin, const Progress& progress, const CancelFlag* cancel, VisibleMap& map) {
     StageProgress stages(progress, 2);
+    const ScreenScene& scene = origin.scene;
+    const VisiblePieces& pieces = origin.pieces;
     const std::size_t count = pieces.pieces.size();
     Ways ways(count);
     // Calls visit(way, region) for the ways of the piece with one on their left.
@@ -296,49 +329,30 @@ Ways ways_of(
     }
     map.regions = regions.numbered();
     stages.next(1);
-    parallel_ranges(count, block, [&](std::size_t first, std::size_t last) {
-        stop_if_raised(cancel);
-        for (std::size_t i = first; i < last; ++i) {
-            const VisiblePiece& piece = pieces.pieces[i];
-            ways.pieces[i] = {
-                piece.from,
-                piece.to,
-                step(scene.vertices[piece.edge.begin].point, scene.vertices[piece.edge.end].point)};
-            for_each_region(i, [&](std::size_t way, VisibleMap::Region region) {
-                ways.region[way] = regions.number(region);
-            });
-        }
-    });
+    const auto add = [&](std::size_t i) {
+        const VisiblePiece& piece = pieces.pieces[i];
+        ways.pieces[i] = {
+            piece.from,
+            piece.to,
+            step(scene.vertices[piece.edge.begin].point, scene.vertices[piece.edge.end].point)};
+        for_each_region(i, [&](std::size_t way, VisibleMap::Region region) {
+            ways.region[way] = regions.number(region);
+        });
+    };
+    // A few at a time, whose ways may take the room of the pieces before.
+    constexpr std::size_t at_a_time = 32 * block;
+    for (std::size_t begin = 0; begin < count; begin += at_a_time) {
+        const std::size_t end = std::min(count, begin + at_a_time);
+        ways.resize(end);
+        parallel_ranges(end - begin, block, [&](std::size_t first, std::size_t last) {
+            stop_if_raised(cancel);
+            for (std::size_t i = begin + first; i < begin + last; ++i)
+                add(i);
+        });
+        origin.forget_pieces(begin, end);
+    }
     return ways;
 }
-
-/// What a map is made of and, where that need not be kept, the same to be taken apart.
-struct MapOrigin {
-    const ScreenScene& scene;
-    ScreenScene* given_scene;
-    const VisiblePieces& pieces;
-    VisiblePieces* given_pieces;
-    std::vector<PackedPoint>* given_points;
-    std::vector<UnlitBeside>* given_unlit;
-
-    std::vector<PackedPoint> points() const {
-        if (given_points != nullptr)
-            return std::move(*given_points);
-        return pieces.points;
-    }
-
-    /// When there are ways.
-    void forget() const {
-        if (given_scene != nullptr) {
-            free_room(given_scene->triangles);
-            free_room(given_scene->vertices);
-        }
-        if (given_pieces != nullptr)
-            free_room(given_pieces->pieces);
-        if (given_unlit != nullptr)
-            free_room(*given_unlit);
-    }
-};
 
 std::vector<TracedRings> found_rings(
     const MapOrigin& origin,
@@ -347,7 +361,7 @@ std::vector<TracedRings> found_rings(
     const CancelFlag* cancel,
     VisibleMap& map) {
     StageProgress stages(progress, 3);
-    const Ways ways = ways_of(origin.scene, origin.pieces, stages.next(1), cancel, map);
+    const Ways ways = ways_of(origin, stages.next(1), cancel, map);
     origin.forget();
     std::vector<std::uint32_t> next = following(ways, stages.next(1), cancel, map);
     return traced_rings(ways, map.regions.size(), detail, std::move(next), stages.next(1), cancel);

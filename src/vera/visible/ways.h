@@ -22,9 +22,16 @@ public:
         LineStep step; ///< along the whole edge
     };
 
-    explicit Ways(std::size_t count)
-        : pieces(count)
-        , region(2 * count, no_region) {}
+    /// Of no piece, but with room for so many.
+    explicit Ways(std::size_t most) {
+        pieces.reserve(most);
+        region.reserve(2 * most);
+    }
+
+    void resize(std::size_t count) {
+        pieces.resize(count);
+        region.resize(2 * count, no_region);
+    }
 
     std::size_t count() const { return region.size(); }
 
