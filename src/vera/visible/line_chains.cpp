@@ -14,7 +14,6 @@ class Chains {
 public:
     Chains(std::span<const LinePart> parts, LineClass line_class, std::size_t point_count)
         : parts_(parts)
-        , line_class_(line_class)
         , starts_(point_count + 1)
         , is_done_(parts.size()) {
         const auto for_each_end = [&](const auto& visit) {
@@ -27,9 +26,13 @@ public:
         for (std::size_t i = 1; i < starts_.size(); ++i)
             starts_[i] += starts_[i - 1];
         at_vertex_.resize(starts_.back());
+        numbers_.reserve(starts_.back() / 2);
         std::vector<std::uint32_t> next(starts_.begin(), starts_.end() - 1);
         for_each_end(
             [&](std::uint32_t vertex, std::uint32_t part) { at_vertex_[next[vertex]++] = part; });
+        for (std::uint32_t i = 0; i < parts.size(); ++i)
+            if (parts[i].line_class == line_class)
+                numbers_.push_back(i);
     }
 
     std::size_t count() {
@@ -43,10 +46,9 @@ public:
     template <typename Visit>
     void for_each(const Visit& visit) {
         for (const bool from_ends : {true, false})
-            for (std::uint32_t part = 0; part < parts_.size(); ++part)
+            for (const std::uint32_t part : numbers_)
                 for (const std::uint32_t begin : parts_[part].ends)
-                    if (parts_[part].line_class == line_class_ && is_done_[part] == 0
-                        && (!from_ends || next_at(begin, part) == no_part))
+                    if (is_done_[part] == 0 && (!from_ends || next_at(begin, part) == no_part))
                         visit(followed(part, begin));
     }
 
@@ -98,7 +100,7 @@ private:
     }
 
     std::span<const LinePart> parts_;
-    LineClass line_class_;
+    std::vector<std::uint32_t> numbers_; ///< of the parts of the class
     std::vector<std::uint32_t> starts_;
     std::vector<std::uint32_t> at_vertex_; ///< the parts that end at each point
     std::vector<std::uint8_t> is_done_;

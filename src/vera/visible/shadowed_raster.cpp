@@ -550,6 +550,7 @@ ShadowedPieces shadowed_cell_raster(
     const std::size_t vertices = screen.vertices.size();
     std::vector<std::pair<std::uint32_t, std::uint32_t>> penetrating =
         std::move(before.penetrating);
+    std::vector<VisiblePieces> of_surfaces; // in parts: what edges are compared with is there yet
     std::vector<VisiblePieces> parts;
     KeptVertices kept;
     {
@@ -559,17 +560,15 @@ ShadowedPieces shadowed_cell_raster(
         free_room(before.pieces);
         ShadowedRaster raster(
             screen, parts_before, !penetrating.empty(), own, at_a_time, progress, cancel);
-        parts =
+        of_surfaces =
             raster.follow_surfaces(std::move(parts_before), progress_between(progress, 0.2, 0.6));
         std::size_t surfaces = 0;
-        for (const VisiblePieces& part : parts)
+        for (const VisiblePieces& part : of_surfaces)
             surfaces += part.pieces.size();
-        const double of_shadows = raster.expected_of_shadows();
-        const double pieces = static_cast<double>(surfaces) + of_shadows;
+        const double pieces = static_cast<double>(surfaces) + raster.expected_of_shadows();
         require_piece_memory(pieces);
         if (expect)
             expect(pieces);
-        result.pieces = joined(std::move(parts), static_cast<std::size_t>(of_shadows));
         parts = raster.follow_shadows(progress_between(progress, 0.6, 1));
         kept = raster.take_kept();
         result.shadows = raster.shadows();
@@ -581,6 +580,7 @@ ShadowedPieces shadowed_cell_raster(
     renumber_edges(vertices, add_vertices(kept, screen), of_shadows);
     kept.vertices = {};
     give_back_freed_memory();
+    result.pieces = joined(std::move(of_surfaces), of_shadows.pieces.size());
     for (const VisiblePieces* found : {&result.pieces, &of_shadows})
         penetrating.insert(penetrating.end(), found->penetrating.begin(), found->penetrating.end());
     sort_pairs(penetrating);
