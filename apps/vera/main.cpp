@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/accel/simd_level.h"
 #include "vera/base/diagnostic.h"
+#include "vera/base/large_pages.h"
 #include "vera/base/version.h"
 
 #include <algorithm>
@@ -84,6 +85,7 @@ ExitCode run(CLI::App& app, Console& console, int argc, char** argv) {
 } // namespace
 
 int main(int argc, char** argv) {
+    vera::begin_heap_in_large_pages();
     Console console;
     vera::occupy_standard_streams();
     vera::stop_on_interrupt(console);

@@ -3,9 +3,12 @@
 
 #include <cerrno>
 #include <cstddef>
+#include <cstdint>
+#include <memory>
 #include <numeric>
 #include <vector>
 
+#include "base/memory_is_watched.h"
 #include <gtest/gtest.h>
 
 namespace vera {
@@ -29,6 +32,22 @@ TEST(LargePages, AreNotAskedForWhereNoneFits) {
     prefer_large_pages(nullptr, 0, Written::nothing);
     EXPECT_EQ(few, std::vector<int>(10, 3));
 }
+
+#ifdef __GLIBC__
+TEST(LargePages, AreWhereTheHeapGoesOn) {
+    if (memory_is_watched())
+        GTEST_SKIP() << "a sanitizer has a heap of its own";
+    begin_heap_in_large_pages();
+    // More than other tests may have left free.
+    constexpr std::size_t size = 1'500'000;
+    constexpr std::uintptr_t large_page = std::uintptr_t{1} << 21;
+    const auto block = std::make_unique<std::vector<char>>(size, 'a');
+    EXPECT_LT(reinterpret_cast<std::uintptr_t>(block->data()) % large_page, 4096U);
+    // There is room for both, so that they lie side by side.
+    const auto next = std::make_unique<std::vector<char>>(size, 'b');
+    EXPECT_NEAR(static_cast<double>(next->data() - block->data()), size, 4096);
+}
+#endif
 
 } // namespace
 } // namespace vera

@@ -3,21 +3,31 @@
 
 #include <cerrno>
 #include <cstdint>
+#include <cstdlib>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 #ifdef __linux__
 #include <sys/mman.h>
 #endif
 
 namespace vera {
 
+namespace {
+
+constexpr std::uintptr_t large_page = std::uintptr_t{1} << 21U;
+
+} // namespace
+
 void prefer_large_pages(const void* first, std::size_t bytes, Written written) noexcept {
 #ifdef __linux__
-    constexpr std::uintptr_t page = std::uintptr_t{1} << 21U;
     const auto address = reinterpret_cast<std::uintptr_t>(first);
-    const std::uintptr_t before = (page - address % page) % page; // up to the first whole one
-    if (bytes < before + page)
+    const std::uintptr_t before =
+        (large_page - address % large_page) % large_page; // up to the first whole one
+    if (bytes < before + large_page)
         return;
-    const std::size_t whole = (bytes - before) / page * page;
+    const std::size_t whole = (bytes - before) / large_page * large_page;
     void* const place = static_cast<char*>(const_cast<void*>(first)) + before;
     const int error_before = errno; // where it is not granted, nobody need know
     if (madvise(place, whole, MADV_HUGEPAGE) == 0 && written == Written::all) {
@@ -30,6 +40,29 @@ void prefer_large_pages(const void* first, std::size_t bytes, Written written) n
     (void)first;
     (void)bytes;
     (void)written;
+#endif
+}
+
+void begin_heap_in_large_pages() noexcept {
+#ifdef __GLIBC__
+    constexpr int room = 4 * static_cast<int>(large_page);
+    constexpr int usual_room = 1 << 17;
+    mallopt(M_MMAP_THRESHOLD, static_cast<int>(large_page));
+    mallopt(M_TRIM_THRESHOLD, 2 * room); // or the room would be given back with the first block
+    mallopt(M_TOP_PAD, room);
+    // What lies before the first large page is never written. The first block is more than there is
+    // room for yet, so that the second lies behind it. Both are kept, for what looks for lost ones;
+    // volatile, or compilers would leave out what is never read. What the heap writes beside both
+    // lies before the page as well: a page that is written to before it is asked for stays small.
+    constexpr std::uintptr_t beside_both = 32;
+    static void* volatile unused = nullptr;
+    static void* volatile unused_too = nullptr;
+    unused = std::malloc(usual_room);
+    const std::uintptr_t end = reinterpret_cast<std::uintptr_t>(unused) + usual_room + beside_both;
+    unused_too = std::malloc(large_page - end % large_page);
+    if (unused_too != nullptr)
+        prefer_large_pages(unused_too, room, Written::nothing);
+    mallopt(M_TOP_PAD, usual_room);
 #endif
 }
 
