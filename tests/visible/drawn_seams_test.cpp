@@ -93,6 +93,32 @@ TEST(DrawnSeams, LieOnUnderlaysWithoutCracks) {
     }
 }
 
+TEST(DrawnSeams, GoOnAlongTheOtherSideOfAThinNeighbour) {
+    // A post of less than two pixels, painted last: what is white is below it and on its right, and
+    // its border there comes near to the corner on the left, where black begins.
+    constexpr double wide = 1.9;
+    Scene scene;
+    const double right = wide / per_unit;
+    add_polygon(
+        scene.geometry,
+        {{-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {right, 2, 0}, {right, 0, 0}, {0, 0, 0}, {-2, 0, 0}});
+    scene.geometry.items.back().material = static_cast<MaterialId>(0);
+    scene.materials.emplace_back().sdi = {0.9, 0.9, 0.9};
+    add_rectangle(scene, {-2, 0, 0}, {0, 2, 0}, 0.1);
+    add_rectangle(scene, {0, 0, 0}, {right, 2, 0}, 0.5);
+    number_primitives(scene);
+    Drawing drawing = draw_scene(scene, camera_from_the_front(), {}, {}).drawing;
+    ASSERT_EQ(drawing.fills.size(), 4U);
+    ASSERT_EQ(drawing.fills.front().id, "underlay");
+    drawing.fills.erase(drawing.fills.begin());
+    drawing.fills.pop_back();
+    for (const double up : {3.0, 20.0, 150.0}) {
+        const auto color = testing::painted_color(drawing.fills, {256 + wide - 0.5, 256 - up});
+        ASSERT_TRUE(color) << up;
+        EXPECT_GT(color->g, 0.6) << up;
+    }
+}
+
 TEST(DrawnSeams, EndAtCornersAsFarFromTheOneBorderAsFromTheOther) {
     // White below, black on the left, and grey, painted last, in the corner between them: black
     // that goes on below all of a strip of grey comes through where grey's edge along white is

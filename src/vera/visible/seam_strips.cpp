@@ -79,11 +79,23 @@ struct BorderEnd {
             half = HalfPlane{normal, dot(normal, end)};
     }
 
-    /// Whether strips along a chord that begins or ends there come near.
-    bool is_near(DrawingPoint place) const {
+    /// What is to be left of strips along a chord that begins at the one place and goes towards the
+    /// other: where it comes near to the end, what lies in the half plane. One that leaves that, as
+    /// along the other side of a thin neighbour, is not cut farther away.
+    std::vector<BorderRing>
+    cut(const std::vector<BorderRing>& strips, DrawingPoint place, DrawingPoint towards) const {
         constexpr double reach = 2 * strip_width;
         const DrawingPoint way = way_from(point, place);
-        return dot(way, way) <= reach * reach;
+        if (!half || dot(way, way) > reach * reach)
+            return strips;
+        if (place == point || dot(half->normal, towards) <= half->reach)
+            return cut_rings(strips, *half);
+        const DrawingPoint along = unit(way_from(place, towards));
+        const HalfPlane near = {along, dot(along, point) + reach};
+        std::vector<BorderRing> left = cut_rings(cut_rings(strips, near), *half);
+        std::ranges::move(
+            cut_rings(strips, {{-along.x, -along.y}, -near.reach}), std::back_inserter(left));
+        return left;
     }
 };
 
@@ -168,9 +180,12 @@ seam_strips(std::span<const BorderPoint> border, const std::vector<BorderRing>& 
     for (std::size_t first = 0; first + 1 < border.size();) {
         const std::size_t last = end_of_straight(border, first);
         std::vector<BorderRing> along = strips_along(border[first], border[last], neighbour);
-        for (const BorderEnd& end : ends)
-            if (end.half && (end.is_near(border[first]) || end.is_near(border[last])))
-                along = cut_rings(along, *end.half);
+        for (const BorderEnd& end : ends) {
+            const bool begins_nearer =
+                distance(end.point, border[first]) <= distance(end.point, border[last]);
+            along = begins_nearer ? end.cut(along, border[first], border[last])
+                                  : end.cut(along, border[last], border[first]);
+        }
         std::ranges::move(along, std::back_inserter(strips));
         first = last;
     }
