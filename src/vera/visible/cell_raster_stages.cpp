@@ -98,8 +98,9 @@ void hide_edges(
     parallel_ranges(nearness.size(), 4096, [&](std::size_t first, std::size_t last) {
         stop_if_raised(cancel);
         for (std::size_t i = first; i < last; ++i)
-            raster.hidden_eighths[first_edge + i] = hidden_eighths(
-                raster, squares, raster.edges.edges[first_edge + i], nearness[i], [] {});
+            if (raster.is_followed(first_edge + i))
+                raster.hidden_eighths[first_edge + i] = hidden_eighths(
+                    raster, squares, raster.edges.edges[first_edge + i], nearness[i], [] {});
     });
 }
 
@@ -301,7 +302,7 @@ ExpectedPieces expected_pieces(
         for (std::size_t i = first; i < last; ++i) {
             stop_if_raised(cancel);
             const std::uint32_t edge = marked[i].edge;
-            if (!raster.is_near_change.empty() && raster.is_near_change[edge] == 0) {
+            if (!raster.is_followed(edge)) {
                 found[i].pieces =
                     static_cast<double>(count_pieces_of(before, raster.edges.edges[edge]));
                 continue;

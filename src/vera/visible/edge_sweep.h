@@ -31,7 +31,7 @@ struct CellRaster {
     /// Of the edges from there on, as is_inner() and shadowed_source(); empty: there is no shadow.
     std::vector<std::uint8_t> inner;
     std::vector<std::uint32_t> shadowed;
-    std::vector<std::uint8_t> is_near_change; ///< of edges; empty: all are
+    std::vector<std::uint8_t> is_near_change; ///< of edges; the others behind these are
     /// Of edges of surfaces, whether they lie between two parts of one source, which then is on
     /// both sides.
     std::vector<std::uint8_t> within_source;
@@ -47,6 +47,11 @@ struct CellRaster {
     std::uint32_t shadowed_source(std::uint32_t edge) const {
         return shadowed.empty() || edge < first_shadow_edge ? no_source
                                                             : shadowed[edge - first_shadow_edge];
+    }
+
+    /// Whether the edge is asked for: not where it is far from what was changed.
+    bool is_followed(std::size_t edge) const {
+        return edge >= is_near_change.size() || is_near_change[edge] != 0;
     }
 
     bool is_within_source(std::uint32_t edge) const {

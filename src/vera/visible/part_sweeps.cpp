@@ -24,7 +24,7 @@ VisiblePieces PartSweep::followed(std::size_t first, std::size_t last, const Can
     clear();
     for (std::size_t i = first; i < last; ++i) {
         stop_if_raised(cancel); // one edge may be compared with all triangles
-        if (raster_.is_near_change.empty() || raster_.is_near_change[i] != 0)
+        if (raster_.is_followed(i))
             sweep_.follow(static_cast<std::uint32_t>(i), found_);
     }
     points_.clear();
