@@ -53,11 +53,6 @@ function(vera_tests folder label)
     target_link_libraries(${target} PRIVATE ${TESTS_LINKS} GTest::gmock GTest::gtest_main)
     target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
     target_compile_definitions(${target} PRIVATE VERA_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-    list(LENGTH TESTS_SOURCES source_count)
-    if(source_count GREATER 4)
-        # A fifth of what a test takes to compile is reading these two.
-        target_precompile_headers(${target} PRIVATE <gmock/gmock.h> <gtest/gtest.h>)
-    endif()
 
     set(test_label ${label})
     if(TESTS_THREADED)
