@@ -57,6 +57,11 @@ private:
     void* mapping_ = nullptr;
 };
 
+/// How long the mark of its encoding is that some editors begin a text with: 0 where there is none.
+inline std::size_t encoding_mark_length(std::string_view text) {
+    return text.starts_with("\xef\xbb\xbf") ? 3 : 0;
+}
+
 /// Throws InputError where the text is in UTF-16, as some editors save it: where it begins with
 /// that encoding's mark, or every other byte at its beginning is zero.
 void refuse_utf16(const SourceText& text);

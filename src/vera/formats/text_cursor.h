@@ -14,11 +14,6 @@
 
 namespace vera {
 
-/// How long the mark of its encoding is that some editors begin a text with: 0 where there is none.
-inline std::size_t encoding_mark_length(std::string_view text) {
-    return text.starts_with("\xef\xbb\xbf") ? 3 : 0;
-}
-
 /// Goes through the text of a mesh or NFF file, word by word and line by line. Words stand between
 /// blanks; a carriage return is a blank. A mark of the encoding at the beginning is passed over.
 class TextCursor {

@@ -94,9 +94,7 @@ WordReader::WordReader(const SourceText& text, Complaints& complaints)
     , line_begin_(at_)
     , spent_(text) {
     refuse_utf16(text);
-    // Some editors begin a text with a mark of its encoding.
-    if (text.text().substr(0, 3) == "\xef\xbb\xbf")
-        at_ += 3;
+    at_ += encoding_mark_length(text.text());
 }
 
 WordPlace WordReader::place_of(const char* word, std::size_t length) const {
