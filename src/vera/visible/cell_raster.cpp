@@ -64,13 +64,13 @@ constexpr std::size_t few_edges = 1024;
 
 void check_memory(
     const CellRaster& raster,
-    const std::vector<VisiblePiece>& before,
+    std::size_t kept,
     const ExpectPieces& expect,
     const CancelFlag* cancel) {
     if (raster.edges.edges.size() < few_edges)
         return;
-    const auto [pieces, pairs] =
-        expected_pieces(raster, 0, raster.edges.edges.size(), before, cancel);
+    auto [pieces, pairs] = expected_pieces(raster, 0, raster.edges.edges.size(), cancel);
+    pieces += static_cast<double>(kept);
     require_piece_memory(pieces, pairs);
     if (expect)
         expect(pieces);
@@ -98,7 +98,120 @@ void count_cells(const CellRaster& raster, CellCounts& counts) {
             raster, squares, raster.edges.edges[i], nearness[i], [&] { ++counts.edge_cells; });
 }
 
+/// Where no shadow is near, there is none.
+void set_unlit(const CellRaster& raster, PackedPieces& part) {
+    const ScreenScene& scene = raster.scene;
+    const auto unlit = [&](std::uint32_t triangle) {
+        return triangle == no_triangle ? 0 : scene.unlit_of(scene.triangles[triangle].source);
+    };
+    part.unlit = {};
+    if (raster.may_be_unlit())
+        part.unlit = PackedRows<2>(part.size(), [&](std::size_t i) {
+            const VisiblePiece piece = part.piece(i);
+            return PackedRows<2>::Row{unlit(piece.left), unlit(piece.right)};
+        });
+}
+
+/// Takes out of the parts what penetrates.
+std::vector<std::pair<std::uint32_t, std::uint32_t>>
+take_penetrating(std::vector<PackedPieces>& parts) {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> all;
+    for (PackedPieces& part : parts) {
+        all.insert(all.end(), part.penetrating.begin(), part.penetrating.end());
+        free_room(part.penetrating);
+    }
+    return all;
+}
+
 } // namespace
+
+SeenParts parted(VisiblePieces list) {
+    return {parts_of(list), std::move(list.penetrating)};
+}
+
+VisiblePieces joined(SeenParts seen) {
+    VisiblePieces list = joined(std::move(seen.parts));
+    list.penetrating = std::move(seen.penetrating);
+    return list;
+}
+
+SeenParts cell_raster_parts(
+    const ScreenScene& scene,
+    const Progress& progress,
+    const CancelFlag* cancel,
+    const ExpectPieces& expect,
+    CellCounts* counts) {
+    SeenParts seen;
+    CellRaster raster = raster_of(scene, {}, progress, cancel);
+    CellCounts counted;
+    if (counts != nullptr)
+        count_cells(raster, counted);
+    free_room(raster.cells.blocked); // which edges were compared with already
+    check_memory(raster, 0, expect, cancel);
+    follow_edges(
+        raster,
+        0,
+        raster.edges.edges.size(),
+        progress_between(progress, part_of_preparation, 1),
+        cancel,
+        seen.parts,
+        &counted);
+    if (counts != nullptr)
+        *counts = counted;
+    seen.penetrating = take_penetrating(seen.parts);
+    sort_pairs(seen.penetrating);
+    return seen;
+}
+
+SeenParts cell_raster_parts_after(
+    const SceneChange& change,
+    std::span<const PackedPoint> open,
+    SeenParts before,
+    const ScreenScene& scene,
+    const Progress& progress,
+    const CancelFlag* cancel,
+    const ExpectPieces& expect) {
+    std::vector<PackedPieces> parts;
+    {
+        const AskedOfRaster asked = [&](CellRaster& of, const Cells& cells) {
+            of.is_near_change = edges_in(cells_of_change(change, of, cells), of, cells);
+            // As soon as that is known: what comes takes the room of what is not kept.
+            keep_pieces(of, before.parts);
+            std::vector<std::uint8_t> asked_cells = cells_along(of.is_near_change, of, cells);
+            for_each_cell_of_points(open, cells, [&](std::size_t cell) {
+                if (asked_cells[cell] != not_asked)
+                    asked_cells[cell] = asked_with_hidden;
+            });
+            return asked_cells;
+        };
+        CellRaster raster = raster_of(scene, asked, progress, cancel);
+        free_room(raster.cells.blocked);
+        std::size_t kept = 0;
+        for (PackedPieces& part : before.parts) {
+            kept += part.size();
+            set_unlit(raster, part);
+        }
+        check_memory(raster, kept, expect, cancel);
+        follow_edges(
+            raster,
+            0,
+            raster.edges.edges.size(),
+            progress_between(progress, part_of_preparation, 1),
+            cancel,
+            parts);
+    }
+    SeenParts seen;
+    seen.penetrating = take_penetrating(parts);
+    seen.parts = merged(std::move(before.parts), std::move(parts));
+    std::vector<std::uint8_t> is_changed(scene.triangles.size());
+    for (const std::uint32_t triangle : change.triangles)
+        is_changed[triangle] = 1;
+    for (const auto& [a, b] : before.penetrating)
+        if (is_changed[a] == 0 && is_changed[b] == 0)
+            seen.penetrating.emplace_back(a, b);
+    sort_pairs(seen.penetrating);
+    return seen;
+}
 
 VisiblePieces cell_raster(
     const ScreenScene& scene,
@@ -106,34 +219,7 @@ VisiblePieces cell_raster(
     const CancelFlag* cancel,
     const ExpectPieces& expect,
     CellCounts* counts) {
-    std::vector<VisiblePieces> parts;
-    {
-        CellRaster raster = raster_of(scene, {}, progress, cancel);
-        CellCounts counted;
-        if (counts != nullptr)
-            count_cells(raster, counted);
-        free_room(raster.cells.blocked); // which edges were compared with already
-        check_memory(raster, {}, expect, cancel);
-        follow_edges(
-            raster,
-            0,
-            raster.edges.edges.size(),
-            progress_between(progress, part_of_preparation, 1),
-            cancel,
-            parts,
-            &counted);
-        if (counts != nullptr)
-            *counts = counted;
-    }
-    // What penetrates is cut, and there are more then, about ten for each pair: in room that is
-    // taken once, or the list would be there twice when it grows.
-    constexpr std::size_t room_for_a_pair = 16;
-    std::size_t pairs = 0;
-    for (const VisiblePieces& part : parts)
-        pairs += part.penetrating.size();
-    VisiblePieces result = joined(std::move(parts), room_for_a_pair * pairs);
-    sort_pairs(result.penetrating);
-    return result;
+    return joined(cell_raster_parts(scene, progress, cancel, expect, counts));
 }
 
 VisiblePieces cell_raster_after(
@@ -144,48 +230,8 @@ VisiblePieces cell_raster_after(
     const Progress& progress,
     const CancelFlag* cancel,
     const ExpectPieces& expect) {
-    std::vector<std::uint8_t> is_changed(scene.triangles.size());
-    for (const std::uint32_t triangle : change.triangles)
-        is_changed[triangle] = 1;
-    // Where no shadow is near, there is none.
-    const auto unlit = [&](std::uint32_t triangle) {
-        return triangle == no_triangle ? 0 : scene.unlit_of(scene.triangles[triangle].source);
-    };
-    before.unlit.clear();
-    std::vector<VisiblePieces> parts;
-    {
-        const AskedOfRaster asked = [&](CellRaster& of, const Cells& cells) {
-            of.is_near_change = edges_in(cells_of_change(change, of, cells), of, cells);
-            // As soon as that is known: what comes takes the room of what is not kept.
-            keep_pieces(kept_pieces(of, before.pieces), before);
-            std::vector<std::uint8_t> asked_cells = cells_along(of.is_near_change, of, cells);
-            for_each_cell_of_points(open, cells, [&](std::size_t cell) {
-                if (asked_cells[cell] != not_asked)
-                    asked_cells[cell] = asked_with_hidden;
-            });
-            return asked_cells;
-        };
-        CellRaster raster = raster_of(scene, asked, progress, cancel);
-        free_room(raster.cells.blocked);
-        if (raster.may_be_unlit())
-            for (const VisiblePiece& piece : before.pieces)
-                before.unlit.push_back({unlit(piece.left), unlit(piece.right)});
-        check_memory(raster, before.pieces, expect, cancel);
-        follow_edges(
-            raster,
-            0,
-            raster.edges.edges.size(),
-            progress_between(progress, part_of_preparation, 1),
-            cancel,
-            parts);
-    }
-    const auto penetrating = std::move(before.penetrating);
-    VisiblePieces result = merged(std::move(before), joined(std::move(parts)));
-    for (const auto& [a, b] : penetrating)
-        if (is_changed[a] == 0 && is_changed[b] == 0)
-            result.penetrating.emplace_back(a, b);
-    sort_pairs(result.penetrating);
-    return result;
+    return joined(cell_raster_parts_after(
+        change, open, parted(std::move(before)), scene, progress, cancel, expect));
 }
 
 } // namespace vera

@@ -227,25 +227,6 @@ void take_shadows_out(CellRaster& raster, std::size_t triangles, std::size_t edg
 
 namespace {
 
-/// Of the pieces before, those of edges from this one on.
-auto first_piece_of(const std::vector<VisiblePiece>& before, ScreenEdges::Edge edge) {
-    return std::lower_bound(
-        before.begin(),
-        before.end(),
-        edge,
-        [](const VisiblePiece& piece, const ScreenEdges::Edge& value) {
-            return piece.edge < value;
-        });
-}
-
-/// How many of the pieces before are those of the edge.
-std::size_t count_pieces_of(const std::vector<VisiblePiece>& before, ScreenEdges::Edge edge) {
-    std::size_t count = 0;
-    for (auto i = first_piece_of(before, edge); i != before.end() && i->edge == edge; ++i)
-        ++count;
-    return count;
-}
-
 /// An edge, and how many marks at equal distances lie on it where all edges are laid end to end.
 struct MarkedEdge {
     std::uint32_t edge = 0;
@@ -291,7 +272,6 @@ ExpectedPieces expected_pieces(
     const CellRaster& raster,
     std::size_t first_edge,
     std::size_t last_edge,
-    const std::vector<VisiblePiece>& before,
     const CancelFlag* cancel) {
     PartSweeps sweeps(raster); // of its own: what they count is not counted
     double distance = 0;
@@ -302,11 +282,8 @@ ExpectedPieces expected_pieces(
         for (std::size_t i = first; i < last; ++i) {
             stop_if_raised(cancel);
             const std::uint32_t edge = marked[i].edge;
-            if (!raster.is_followed(edge)) {
-                found[i].pieces =
-                    static_cast<double>(count_pieces_of(before, raster.edges.edges[edge]));
+            if (!raster.is_followed(edge))
                 continue;
-            }
             const VisiblePieces& pieces = sweep->followed(edge);
             found[i] = {
                 static_cast<double>(pieces.pieces.size()),
@@ -329,7 +306,7 @@ void follow_edges(
     std::size_t last,
     const Progress& progress,
     const CancelFlag* cancel,
-    std::vector<VisiblePieces>& parts,
+    std::vector<PackedPieces>& parts,
     CellCounts* counts) {
     constexpr std::size_t part = 4096; // edges
     const std::size_t before = parts.size();
@@ -353,19 +330,25 @@ void follow_edges(
         counts->add_followed(sweeps.counts());
 }
 
-/// Which of the pieces before are those of edges that are there still, and far from the change.
-std::vector<std::uint8_t>
-kept_pieces(const CellRaster& raster, const std::vector<VisiblePiece>& before) {
+void keep_pieces(const CellRaster& raster, std::vector<PackedPieces>& parts) {
     const std::vector<ScreenEdges::Edge>& edges = raster.edges.edges;
-    std::vector<std::uint8_t> is_kept(before.size());
-    std::size_t edge = 0;
-    for (std::size_t i = 0; i < before.size(); ++i) {
-        while (edge < edges.size() && edges[edge] < before[i].edge)
-            ++edge;
-        const bool is_there = edge < edges.size() && edges[edge] == before[i].edge;
-        is_kept[i] = is_there && raster.is_near_change[edge] == 0 ? 1 : 0;
-    }
-    return is_kept;
+    parallel_ranges(parts.size(), 1, [&](std::size_t number, std::size_t) {
+        PackedPieces& part = parts[number];
+        VisiblePieces kept;
+        PieceCopy copy(part, kept);
+        for (std::size_t i = 0, edge = 0; i < part.size(); ++i) {
+            const ScreenEdges::Edge of = part.edge(i);
+            if (i == 0)
+                edge = static_cast<std::size_t>(
+                    std::lower_bound(edges.begin(), edges.end(), of) - edges.begin());
+            while (edge < edges.size() && edges[edge] < of)
+                ++edge;
+            if (edge < edges.size() && edges[edge] == of && raster.is_near_change[edge] == 0)
+                copy.add(i);
+        }
+        if (kept.pieces.size() < part.size())
+            part = PackedPieces(kept);
+    });
 }
 
 void sort_pairs(std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs) {

@@ -7,6 +7,7 @@
 #include "vera/visible/cell_raster.h"
 #include "vera/visible/edge_sweep.h"
 #include "vera/visible/hidden_squares.h"
+#include "vera/visible/packed_pieces.h"
 #include "vera/visible/sheets.h"
 
 #include <array>
@@ -50,18 +51,14 @@ void take_shadows_out(CellRaster& raster, std::size_t triangles, std::size_t edg
 
 /// How many pieces there will be of the edges from first to before last, about, and how many pairs
 /// that pass through each other, as often as edges tell them: systematic sampling, in proportion to
-/// lengths. Of edges that are not near what was changed the pieces stay.
+/// lengths. None of edges that are not near what was changed.
 struct ExpectedPieces {
     double pieces = 0;
     double pairs = 0;
 };
 
 ExpectedPieces expected_pieces(
-    const CellRaster& raster,
-    std::size_t first,
-    std::size_t last,
-    const std::vector<VisiblePiece>& before,
-    const CancelFlag* cancel);
+    const CellRaster& raster, std::size_t first, std::size_t last, const CancelFlag* cancel);
 
 /// Follows the edges from first to before last that are near what was changed, or all, and adds
 /// what is found, in parts, one behind the other.
@@ -71,12 +68,11 @@ void follow_edges(
     std::size_t last,
     const Progress& progress,
     const CancelFlag* cancel,
-    std::vector<VisiblePieces>& parts,
+    std::vector<PackedPieces>& parts,
     CellCounts* counts = nullptr);
 
-/// Which of the pieces before are those of edges that are there still, and far from the change.
-std::vector<std::uint8_t>
-kept_pieces(const CellRaster& raster, const std::vector<VisiblePiece>& before);
+/// Leaves those pieces that are of edges that are there still, and far from the change.
+void keep_pieces(const CellRaster& raster, std::vector<PackedPieces>& parts);
 
 /// Of each edge from that one on, how near it is in the planes of all triangles, from the first one
 /// on, that have it.
@@ -112,5 +108,30 @@ std::uint8_t hidden_eighths(
 }
 
 void sort_pairs(std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs);
+
+/// What is seen of a scene, in parts: what a round of cutting begins and ends with.
+struct SeenParts {
+    std::vector<PackedPieces> parts; ///< by the edges of their pieces
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> penetrating; ///< as of VisiblePieces
+};
+
+SeenParts parted(VisiblePieces list);
+VisiblePieces joined(SeenParts seen);
+
+/// As cell_raster() and cell_raster_after().
+SeenParts cell_raster_parts(
+    const ScreenScene& scene,
+    const Progress& progress,
+    const CancelFlag* cancel,
+    const ExpectPieces& expect,
+    CellCounts* counts = nullptr);
+SeenParts cell_raster_parts_after(
+    const SceneChange& change,
+    std::span<const PackedPoint> open,
+    SeenParts before,
+    const ScreenScene& scene,
+    const Progress& progress,
+    const CancelFlag* cancel,
+    const ExpectPieces& expect);
 
 } // namespace vera

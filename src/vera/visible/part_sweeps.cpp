@@ -20,7 +20,7 @@ const VisiblePieces& PartSweep::followed(std::uint32_t edge) {
     return found_;
 }
 
-VisiblePieces PartSweep::followed(std::size_t first, std::size_t last, const CancelFlag* cancel) {
+PackedPieces PartSweep::followed(std::size_t first, std::size_t last, const CancelFlag* cancel) {
     clear();
     for (std::size_t i = first; i < last; ++i) {
         stop_if_raised(cancel); // one edge may be compared with all triangles
@@ -33,7 +33,8 @@ VisiblePieces PartSweep::followed(std::size_t first, std::size_t last, const Can
         piece.from = numbers_.number(found_.points[piece.from]);
         piece.to = numbers_.number(found_.points[piece.to]);
     }
-    return {points_, found_.pieces, found_.unlit, found_.penetrating};
+    std::swap(found_.points, points_);
+    return PackedPieces(found_);
 }
 
 std::unique_ptr<PartSweep> PartSweeps::take() {

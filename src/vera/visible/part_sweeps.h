@@ -6,6 +6,7 @@
 #include "vera/visible/cell_counts.h"
 #include "vera/visible/cell_raster.h"
 #include "vera/visible/edge_sweep.h"
+#include "vera/visible/packed_pieces.h"
 #include "vera/visible/point_numbers.h"
 
 #include <cstddef>
@@ -28,9 +29,8 @@ public:
     const VisiblePieces& followed(std::uint32_t edge);
 
     /// What is found of the edges from first to before last that are near what was changed, each
-    /// point once. In as little room as it takes, since all parts are there at a time. Throws
-    /// Cancelled.
-    VisiblePieces followed(std::size_t first, std::size_t last, const CancelFlag* cancel);
+    /// point once. Packed, since all parts are there at a time. Throws Cancelled.
+    PackedPieces followed(std::size_t first, std::size_t last, const CancelFlag* cancel);
 
     /// Of all edges that it followed.
     CellCounts counts() const { return sweep_.counts(); }
@@ -41,7 +41,7 @@ private:
     const CellRaster& raster_;
     EdgeSweep sweep_;
     VisiblePieces found_;
-    std::vector<PackedPoint> points_; ///< those of found_, each once
+    std::vector<PackedPoint> points_; ///< those of found_, each once, in whose place they come
     PointNumbers numbers_;
 };
 

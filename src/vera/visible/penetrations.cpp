@@ -4,6 +4,7 @@
 #include "vera/base/long_loop.h"
 #include "vera/base/progress_part.h"
 #include "vera/exact/front_order.h"
+#include "vera/visible/cell_raster_stages.h"
 #include "vera/visible/edges.h"
 #include "vera/visible/open_points.h"
 #include "vera/visible/plane_sweep.h"
@@ -13,6 +14,7 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace vera {
@@ -218,28 +220,32 @@ WholePieces whole_pieces(
     std::vector<PackedPoint> open; // there was a way
     const auto swept = [&](const Progress& round) {
         VisiblePieces pieces = plane_sweep(scene, {}, round, cancel);
-        if (open.empty())
-            return pieces;
-        return cell_raster_after({{}, {}, open}, open, std::move(pieces), scene, {}, cancel);
+        if (!open.empty())
+            pieces = cell_raster_after({{}, {}, open}, open, std::move(pieces), scene, {}, cancel);
+        return parted(std::move(pieces));
     };
     WholePieces result;
     const Progress first_round = progress_between(progress, 0, done);
-    result.pieces = engine == VisibilityEngine::sweep
+    SeenParts seen = engine == VisibilityEngine::sweep
         ? swept(first_round)
-        : cell_raster(scene, first_round, cancel, expect);
+        : cell_raster_parts(scene, first_round, cancel, expect);
     while (true) {
-        if (result.pieces.penetrating.empty())
+        const bool may_be_last =
+            result.rounds == most_rounds || scene.triangles.size() > most_triangles;
+        if (seen.penetrating.empty() || may_be_last) {
+            result.pieces = joined(std::move(seen));
             close_ways(scene, result.pieces, open, cancel);
-        result.opened = open.size();
-        result.left = result.pieces.penetrating.size();
-        if (result.left == 0 || result.rounds == most_rounds
-            || scene.triangles.size() > most_triangles)
-            return result;
-        const SceneChange change = cut_penetrations(scene, result.pieces.penetrating, cancel);
-        result.pieces = engine == VisibilityEngine::sweep
+            result.opened = open.size();
+            result.left = result.pieces.penetrating.size();
+            if (result.left == 0 || may_be_last)
+                return result;
+            seen = parted(std::exchange(result.pieces, {}));
+        }
+        const SceneChange change = cut_penetrations(scene, seen.penetrating, cancel);
+        seen = engine == VisibilityEngine::sweep
             ? swept(next_round())
-            : cell_raster_after(
-                change, open, std::move(result.pieces), scene, next_round(), cancel, expect);
+            : cell_raster_parts_after(
+                change, open, std::move(seen), scene, next_round(), cancel, expect);
         ++result.rounds;
     }
 }

@@ -8,8 +8,10 @@
 #include "vera/visible/point_numbers.h"
 
 #include <algorithm>
+#include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <utility>
 
 namespace vera {
@@ -19,9 +21,9 @@ namespace {
 /// The points of the parts by one number, as if they stood one part's behind the other's.
 class PartedPoints {
 public:
-    explicit PartedPoints(const std::vector<VisiblePieces>& parts)
+    explicit PartedPoints(const std::vector<PackedPieces>& parts)
         : parts_(parts) {
-        for (const VisiblePieces& part : parts)
+        for (const PackedPieces& part : parts)
             starts_.push_back(starts_.back() + part.points.size());
         for (std::size_t part = 0, i = 0; i < count(); i += block) {
             while (starts_[part + 1] <= i)
@@ -35,17 +37,17 @@ public:
     /// With which number the part begins.
     std::size_t start(std::size_t part) const { return starts_[part]; }
 
-    const PackedPoint& operator[](std::size_t i) const {
+    PackedPoint operator[](std::size_t i) const {
         std::size_t part = part_of_block_[i / block];
         while (starts_[part + 1] <= i)
             ++part;
-        return parts_[part].points[i - starts_[part]];
+        return parts_[part].point(i - starts_[part]);
     }
 
 private:
     static constexpr std::size_t block = 1024; ///< points: hardly as many as a part has
 
-    const std::vector<VisiblePieces>& parts_;
+    const std::vector<PackedPieces>& parts_;
     std::vector<std::size_t> starts_ = {0};
     std::vector<std::size_t> part_of_block_; ///< in which each block's first point is
 };
@@ -55,7 +57,7 @@ private:
 template <typename RoomBeside>
 std::vector<PackedPoint> joined_points(
     const PartedPoints& parted,
-    std::vector<VisiblePieces>& parts,
+    std::vector<PackedPieces>& parts,
     std::vector<std::uint32_t>& numbers,
     const RoomBeside& room_beside) {
     numbers = first_equal(
@@ -70,7 +72,7 @@ std::vector<PackedPoint> joined_points(
         const std::size_t start = parted.start(i);
         for (const std::size_t end = parted.start(i + 1);
              points.size() < firsts.size() && firsts[points.size()] < end;)
-            points.push_back(parts[i].points[firsts[points.size()] - start]);
+            points.push_back(parts[i].point(firsts[points.size()] - start));
         freed.free(parts[i].points);
     }
     return points;
@@ -157,14 +159,12 @@ void for_each_merged(const VisiblePieces& before, const VisiblePieces& found, co
 
 } // namespace
 
-VisiblePieces joined(std::vector<VisiblePieces> parts, std::size_t others) {
-    if (parts.size() == 1 && others == 0)
-        return std::move(parts.front());
+VisiblePieces joined(std::vector<PackedPieces> parts, std::size_t others) {
     const PartedPoints parted(parts);
     std::size_t pieces = 0;
     std::size_t unlit = 0;
-    for (const VisiblePieces& part : parts) {
-        pieces += part.pieces.size();
+    for (const PackedPieces& part : parts) {
+        pieces += part.size();
         unlit += part.unlit.size();
     }
     VisiblePieces result;
@@ -176,15 +176,17 @@ VisiblePieces joined(std::vector<VisiblePieces> parts, std::size_t others) {
     result.unlit.reserve(unlit == 0 ? 0 : unlit + others);
     FreedBlocks freed;
     for (std::size_t i = 0; i < parts.size(); ++i) {
-        VisiblePieces& part = parts[i];
+        PackedPieces& part = parts[i];
         const auto number = [&](std::uint32_t point) { return numbers[parted.start(i) + point]; };
-        for (VisiblePiece piece : part.pieces) {
+        for (std::size_t j = 0; j < part.size(); ++j) {
+            VisiblePiece piece = part.piece(j);
             piece.from = number(piece.from);
             piece.to = number(piece.to);
             result.pieces.push_back(piece);
         }
         freed.free(part.pieces);
-        result.unlit.insert(result.unlit.end(), part.unlit.begin(), part.unlit.end());
+        for (std::size_t j = 0; j < part.unlit.size(); ++j)
+            result.unlit.push_back(part.unlit_beside(j));
         freed.free(part.unlit);
         result.penetrating.insert(
             result.penetrating.end(), part.penetrating.begin(), part.penetrating.end());
@@ -193,58 +195,85 @@ VisiblePieces joined(std::vector<VisiblePieces> parts, std::size_t others) {
     return result;
 }
 
-std::vector<VisiblePieces> parted(const VisiblePieces& list) {
-    constexpr std::size_t size = 4096; // pieces
-    const std::size_t count = list.pieces.size();
-    std::vector<VisiblePieces> parts((count + size - 1) / size);
-    parallel_ranges(parts.size(), 1, [&](std::size_t number, std::size_t) {
-        const auto piece_at = [&](std::size_t i) {
-            return list.pieces.begin() + static_cast<std::ptrdiff_t>(std::min(i, count));
-        };
-        VisiblePieces& part = parts[number];
-        part.pieces.assign(piece_at(number * size), piece_at((number + 1) * size));
-        std::vector<PackedPoint> points;
-        PointNumbers numbers(points, 2 * part.pieces.size());
-        for (VisiblePiece& piece : part.pieces) {
-            piece.from = numbers.number(list.points[piece.from]);
-            piece.to = numbers.number(list.points[piece.to]);
-        }
-        part.points.assign(points.begin(), points.end());
-    });
-    return parts;
+namespace {
+
+/// A piece of one of many parts.
+struct PieceInParts {
+    std::size_t part = 0;
+    std::size_t piece = 0;
+
+    friend auto operator<=>(const PieceInParts&, const PieceInParts&) = default;
+};
+
+/// The first one that is of that edge or a later one.
+PieceInParts first_from(ScreenEdges::Edge edge, const std::vector<PackedPieces>& parts) {
+    PieceInParts at;
+    while (at.part < parts.size()
+           && (parts[at.part].size() == 0 || parts[at.part].edge(parts[at.part].size() - 1) < edge))
+        ++at.part;
+    while (at.part < parts.size() && parts[at.part].edge(at.piece) < edge)
+        ++at.piece;
+    return at;
 }
 
-void keep_pieces(const std::vector<std::uint8_t>& is_kept, VisiblePieces& list) {
-    const std::size_t count = list.pieces.size();
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-        if (is_kept[i] == 0)
-            continue;
-        list.pieces[kept] = list.pieces[i];
-        if (!list.unlit.empty())
-            list.unlit[kept] = list.unlit[i];
-        ++kept;
-    }
-    list.pieces.resize(kept);
-    give_back_unused(list.pieces);
-    list.unlit.resize(list.unlit.empty() ? 0 : kept);
-    give_back_unused(list.unlit);
-    constexpr std::uint32_t unused = ~std::uint32_t{0};
-    std::vector<std::uint32_t> numbers(list.points.size(), unused);
-    for (const VisiblePiece& piece : list.pieces)
-        numbers[piece.from] = numbers[piece.to] = 0;
-    std::uint32_t points = 0;
-    for (std::size_t i = 0; i < numbers.size(); ++i)
-        if (numbers[i] != unused) {
-            list.points[points] = list.points[i];
-            numbers[i] = points++;
+/// The pieces of a part, and those that were found from one place on to before another one.
+std::vector<PackedPieces> merged_part(
+    const PackedPieces& before,
+    const std::vector<PackedPieces>& found,
+    PieceInParts from,
+    PieceInParts end) {
+    constexpr std::size_t many = 8192; // pieces
+    std::vector<PackedPieces> result;
+    VisiblePieces list;
+    PieceCopy kept(before, list);
+    std::size_t next = 0; // of those before
+    for (; from < end; from = {from.part + 1, 0}) {
+        const PackedPieces& part = found[from.part];
+        const std::size_t last = from.part == end.part ? end.piece : part.size();
+        PieceCopy copy(part, list);
+        for (std::size_t i = from.piece; i < last; ++i) {
+            for (; next < before.size() && before.edge(next) < part.edge(i); ++next)
+                kept.add(next);
+            copy.add(i);
         }
-    list.points.resize(points);
-    give_back_unused(list.points);
-    for (VisiblePiece& piece : list.pieces) {
-        piece.from = numbers[piece.from];
-        piece.to = numbers[piece.to];
+        if (list.pieces.size() < many)
+            continue;
+        result.emplace_back(list);
+        list = {};
+        kept.start();
     }
+    for (; next < before.size(); ++next)
+        kept.add(next);
+    result.emplace_back(list);
+    return result;
+}
+
+} // namespace
+
+std::vector<PackedPieces>
+merged(std::vector<PackedPieces> before, std::vector<PackedPieces> found) {
+    const auto is_empty = [](const PackedPieces& part) { return part.size() == 0; };
+    std::erase_if(before, is_empty);
+    std::erase_if(found, is_empty);
+    if (before.empty())
+        return found;
+    // Each part takes what was found up to the next one's first edge.
+    std::vector<PieceInParts> starts = {{}};
+    for (std::size_t i = 1; i < before.size(); ++i)
+        starts.push_back(first_from(before[i].edge(0), found));
+    starts.push_back({found.size(), 0});
+    std::vector<std::vector<PackedPieces>> merged(before.size());
+    parallel_ranges(before.size(), 1, [&](std::size_t i, std::size_t) {
+        if (starts[i] < starts[i + 1])
+            merged[i] = merged_part(before[i], found, starts[i], starts[i + 1]);
+        else
+            merged[i].push_back(std::move(before[i]));
+        before[i] = {};
+    });
+    std::vector<PackedPieces> result;
+    for (std::vector<PackedPieces>& parts : merged)
+        std::ranges::move(parts, std::back_inserter(result));
+    return result;
 }
 
 VisiblePieces merged(VisiblePieces before, VisiblePieces found) {

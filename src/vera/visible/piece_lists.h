@@ -4,10 +4,9 @@
 #pragma once
 
 #include "vera/base/free_room.h"
-#include "vera/visible/cell_raster.h"
+#include "vera/visible/packed_pieces.h"
 
 #include <cstddef>
-#include <cstdint>
 #include <vector>
 
 namespace vera {
@@ -18,33 +17,39 @@ class FreedBlocks {
 public:
     template <typename T>
     void free(std::vector<T>& vector) {
-        constexpr std::size_t much = std::size_t{6} << 20U;
         bytes_ += vector.capacity() * sizeof(T);
         free_room(vector);
+        give_back_much();
+    }
+
+    template <std::size_t Columns>
+    void free(PackedRows<Columns>& rows) {
+        bytes_ += rows.room();
+        rows = {};
+        give_back_much();
+    }
+
+private:
+    void give_back_much() {
+        constexpr std::size_t much = std::size_t{6} << 20U;
         if (bytes_ < much)
             return;
         give_back_freed_memory();
         bytes_ = 0;
     }
 
-private:
     std::size_t bytes_ = 0;
 };
 
 /// The parts one behind the other. With room for so many other pieces, which are merged in later.
-VisiblePieces joined(std::vector<VisiblePieces> parts, std::size_t others = 0);
+VisiblePieces joined(std::vector<PackedPieces> parts, std::size_t others = 0);
 
-/// Parts that are the list when they are joined again, without its lights and what penetrates: each
-/// has points of its own, so that it can be forgotten before the others.
-std::vector<VisiblePieces> parted(const VisiblePieces& list);
+/// The pieces before, and the ones that were found, which are of other edges, by their edges: parts
+/// that, when they are joined, are as if all had been found together. Without what penetrates.
+std::vector<PackedPieces> merged(std::vector<PackedPieces> before, std::vector<PackedPieces> found);
 
-/// Leaves out the other pieces and the points that only they have. The list keeps its room, but not
-/// the memory of what is not used.
-void keep_pieces(const std::vector<std::uint8_t>& is_kept, VisiblePieces& list);
-
-/// The pieces before, and the ones that were found, which are of other edges, by their edges: as if
-/// all had been found together. Lights are those of both; what penetrates is that which was found.
-/// Done in the room of the larger list, where that suffices.
+/// The same of lists. Lights are those of both; what penetrates is that which was found. Done in
+/// the room of the larger list, where that suffices.
 VisiblePieces merged(VisiblePieces before, VisiblePieces found);
 
 } // namespace vera

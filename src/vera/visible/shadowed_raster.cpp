@@ -27,7 +27,7 @@ namespace {
 /// What was seen beside each edge without shadows, for edges that come in ascending order.
 class SeenBefore {
 public:
-    SeenBefore(const ScreenScene& screen, const std::vector<VisiblePieces>& before)
+    SeenBefore(const ScreenScene& screen, const std::vector<PackedPieces>& before)
         : screen_(screen)
         , before_(before) {}
 
@@ -35,22 +35,24 @@ public:
     template <typename Visit>
     void for_each_beside(ScreenEdges::Edge edge, const Visit& visit) {
         for (; part_ < before_.size(); ++part_, next_ = 0) {
-            const std::vector<VisiblePiece>& pieces = before_[part_].pieces;
-            for (; next_ < pieces.size(); ++next_) {
-                const VisiblePiece& piece = pieces[next_];
-                if (edge < piece.edge)
+            const PackedPieces& part = before_[part_];
+            for (; next_ < part.size(); ++next_) {
+                const ScreenEdges::Edge here = part.edge(next_);
+                if (edge < here)
                     return;
-                if (piece.edge == edge)
-                    for (const std::uint32_t triangle : {piece.left, piece.right})
-                        if (triangle != no_triangle)
-                            visit(screen_.triangles[triangle].source);
+                if (here != edge)
+                    continue;
+                const VisiblePiece piece = part.piece(next_);
+                for (const std::uint32_t triangle : {piece.left, piece.right})
+                    if (triangle != no_triangle)
+                        visit(screen_.triangles[triangle].source);
             }
         }
     }
 
 private:
     const ScreenScene& screen_;
-    const std::vector<VisiblePieces>& before_;
+    const std::vector<PackedPieces>& before_;
     std::size_t part_ = 0;
     std::size_t next_ = 0; ///< of its pieces
 };
@@ -58,40 +60,30 @@ private:
 /// What was seen without shadows, of which parts of the edges take what stays as it was.
 class TakenBefore {
 public:
-    explicit TakenBefore(std::vector<VisiblePieces>& before)
+    explicit TakenBefore(std::vector<PackedPieces>& before)
         : before_(before) {}
 
     /// Of edges that come in ascending order, the pieces of those that are not near a change; which
     /// are forgotten with the others up to the last of these edges.
     VisiblePieces
     take(std::span<const ScreenEdges::Edge> edges, std::span<const std::uint8_t> is_near_change) {
-        std::vector<VisiblePieces> all;
-        std::vector<std::uint32_t> numbers; // of a part's points, among those that are taken
-        constexpr std::uint32_t none = ~std::uint32_t{0};
+        std::vector<PackedPieces> all;
         for (std::size_t edge = 0; part_ < before_.size() && !edges.empty();) {
-            VisiblePieces& part = before_[part_];
+            PackedPieces& part = before_[part_];
             VisiblePieces taken;
-            numbers.assign(part.points.size(), none);
-            for (; next_ < part.pieces.size() && !(edges.back() < part.pieces[next_].edge);
-                 ++next_) {
-                VisiblePiece piece = part.pieces[next_];
-                while (edges[edge] < piece.edge)
+            PieceCopy copy(part, taken);
+            for (; next_ < part.size(); ++next_) {
+                const ScreenEdges::Edge here = part.edge(next_);
+                if (edges.back() < here)
+                    break;
+                while (edges[edge] < here)
                     ++edge;
-                if (is_near_change[edge] != 0)
-                    continue;
-                for (std::uint32_t* point : {&piece.from, &piece.to}) {
-                    std::uint32_t& number = numbers[*point];
-                    if (number == none) {
-                        number = static_cast<std::uint32_t>(taken.points.size());
-                        taken.points.push_back(part.points[*point]);
-                    }
-                    *point = number;
-                }
-                taken.pieces.push_back(piece);
+                if (is_near_change[edge] == 0)
+                    copy.add(next_);
             }
             if (!taken.pieces.empty())
-                all.push_back(std::move(taken));
-            if (next_ < part.pieces.size())
+                all.emplace_back(taken);
+            if (next_ < part.size())
                 break;
             freed_.free(part.pieces);
             freed_.free(part.points);
@@ -102,7 +94,7 @@ public:
     }
 
 private:
-    std::vector<VisiblePieces>& before_;
+    std::vector<PackedPieces>& before_;
     FreedBlocks freed_;
     std::size_t part_ = 0;
     std::size_t next_ = 0; ///< of its pieces
@@ -180,25 +172,25 @@ struct KeptVertices {
 };
 
 /// Makes one of the parts from that number on.
-void join_from(std::size_t first, std::vector<VisiblePieces>& parts) {
+void join_from(std::size_t first, std::vector<PackedPieces>& parts) {
     const auto these = parts.begin() + static_cast<std::ptrdiff_t>(first);
-    VisiblePieces one = joined({std::move_iterator(these), std::move_iterator(parts.end())});
+    const VisiblePieces one = joined({std::move_iterator(these), std::move_iterator(parts.end())});
     parts.erase(these, parts.end());
-    parts.push_back(std::move(one));
+    parts.emplace_back(one);
 }
 
 /// Joins parts in their order whenever they have many pieces: half of the points of small ones are
 /// points of others as well.
 class GrowingParts {
 public:
-    explicit GrowingParts(std::vector<VisiblePieces>& parts)
+    explicit GrowingParts(std::vector<PackedPieces>& parts)
         : parts_(parts) {}
 
     /// When there are further ones.
     void join() {
         std::size_t pieces = 0;
         for (std::size_t i = first_; i < parts_.size(); ++i)
-            pieces += parts_[i].pieces.size();
+            pieces += parts_[i].size();
         if (pieces < many)
             return;
         join_from(first_, parts_);
@@ -208,7 +200,7 @@ public:
 private:
     static constexpr std::size_t many = 65536;
 
-    std::vector<VisiblePieces>& parts_;
+    std::vector<PackedPieces>& parts_;
     std::size_t first_ = 0; ///< of those that are not joined
 };
 
@@ -216,7 +208,7 @@ class ShadowedRaster {
 public:
     ShadowedRaster(
         ScreenScene& screen,
-        const std::vector<VisiblePieces>& before,
+        const std::vector<PackedPieces>& before,
         bool sees_others,
         ThrownShadows& thrown,
         std::size_t at_a_time,
@@ -246,10 +238,10 @@ public:
     ShadowedRaster(const ShadowedRaster&) = delete;
     ShadowedRaster& operator=(const ShadowedRaster&) = delete;
 
-    std::vector<VisiblePieces>
-    follow_surfaces(std::vector<VisiblePieces> before, const Progress& progress);
+    std::vector<PackedPieces>
+    follow_surfaces(std::vector<PackedPieces> before, const Progress& progress);
     double expected_of_shadows();
-    std::vector<VisiblePieces> follow_shadows(const Progress& progress);
+    std::vector<PackedPieces> follow_shadows(const Progress& progress);
 
     /// Afterwards.
     KeptVertices take_kept() { return std::move(kept_); }
@@ -263,14 +255,14 @@ private:
     void take_out();
     std::vector<std::uint32_t> add(std::span<const std::uint32_t> faces);
     void mark_near_shadows(std::size_t first, std::size_t last);
-    void keep_vertices(std::span<const std::uint32_t> lights, std::span<VisiblePieces> parts);
+    void keep_vertices(std::span<const std::uint32_t> lights, std::span<PackedPieces> parts);
 
     bool has_shadows(std::uint32_t triangle) const {
         return thrown_.count_on(screen_.triangles[triangle].source) > 0;
     }
 
     ScreenScene& screen_;
-    const std::vector<VisiblePieces>& before_;
+    const std::vector<PackedPieces>& before_;
     ThrownShadows& thrown_;
     const CancelFlag* cancel_;
     std::size_t triangles_; ///< surfaces
@@ -348,14 +340,14 @@ void ShadowedRaster::mark_near_shadows(std::size_t first, std::size_t last) {
 
 /// The borders of surfaces, in the shadows on both sides, in parts. What was before is forgotten
 /// piece by piece.
-std::vector<VisiblePieces>
-ShadowedRaster::follow_surfaces(std::vector<VisiblePieces> before, const Progress& progress) {
+std::vector<PackedPieces>
+ShadowedRaster::follow_surfaces(std::vector<PackedPieces> before, const Progress& progress) {
     const LongLoop loop(edges_, progress, cancel_, 1);
     raster_.is_near_change.assign(edges_, 0);
     const auto unlit = [&](std::uint32_t triangle) {
         return triangle == no_triangle ? 0 : screen_.unlit_of(screen_.triangles[triangle].source);
     };
-    std::vector<VisiblePieces> parts;
+    std::vector<PackedPieces> parts;
     GrowingParts growing(parts);
     EdgeTriangles edge_triangles = vera::edge_triangles(screen_, raster_.edges);
     SeenBefore seen(screen_, before);
@@ -385,8 +377,11 @@ ShadowedRaster::follow_surfaces(std::vector<VisiblePieces> before, const Progres
         if (!kept.pieces.empty()) {
             for (const VisiblePiece& piece : kept.pieces)
                 kept.unlit.push_back({unlit(piece.left), unlit(piece.right)});
-            join_from(before_these, parts);
-            parts.back() = merged(std::move(kept), std::move(parts.back()));
+            const auto these = parts.begin() + static_cast<std::ptrdiff_t>(before_these);
+            VisiblePieces found =
+                joined({std::move_iterator(these), std::move_iterator(parts.end())});
+            parts.erase(these, parts.end());
+            parts.emplace_back(merged(std::move(kept), std::move(found)));
         }
         growing.join();
         give_back_spent(edge_triangles.starts, 0, edge + 1);
@@ -419,19 +414,21 @@ double ShadowedRaster::expected_of_shadows() {
     if (taken == 0)
         return 0;
     add(faces);
-    return expected_pieces(raster_, edges_, raster_.edges.edges.size(), {}, cancel_).pieces
+    return expected_pieces(raster_, edges_, raster_.edges.edges.size(), cancel_).pieces
         * static_cast<double>(all) / static_cast<double>(taken);
 }
 
 /// Of the shadows' vertices, which are forgotten and of which each light has those from there on,
 /// keeps those between which pieces lie.
 void ShadowedRaster::keep_vertices(
-    std::span<const std::uint32_t> lights, std::span<VisiblePieces> parts) {
+    std::span<const std::uint32_t> lights, std::span<PackedPieces> parts) {
     constexpr std::uint32_t none = ~std::uint32_t{0};
     std::vector<std::uint32_t> numbers(screen_.vertices.size() - vertices_, none);
-    for (const VisiblePieces& part : parts)
-        for (const VisiblePiece& piece : part.pieces)
-            numbers[piece.edge.begin - vertices_] = numbers[piece.edge.end - vertices_] = 0;
+    for (const PackedPieces& part : parts)
+        for (std::size_t i = 0; i < part.size(); ++i) {
+            const ScreenEdges::Edge edge = part.edge(i);
+            numbers[edge.begin - vertices_] = numbers[edge.end - vertices_] = 0;
+        }
     std::vector<std::size_t>& ends = kept_.ends.emplace_back();
     for (std::size_t light = 0; light + 1 < lights.size(); ++light) {
         for (std::size_t i = lights[light]; i < lights[light + 1]; ++i)
@@ -441,15 +438,18 @@ void ShadowedRaster::keep_vertices(
             }
         ends.push_back(kept_.vertices.size());
     }
-    for (VisiblePieces& part : parts)
-        for (VisiblePiece& piece : part.pieces)
+    for (PackedPieces& part : parts) {
+        VisiblePieces list = part.unpacked();
+        for (VisiblePiece& piece : list.pieces)
             piece.edge = {
                 numbers[piece.edge.begin - vertices_], numbers[piece.edge.end - vertices_]};
+        part = PackedPieces(list);
+    }
 }
 
 /// The borders of shadows, in parts. What throws them is forgotten face by face.
-std::vector<VisiblePieces> ShadowedRaster::follow_shadows(const Progress& progress) {
-    std::vector<VisiblePieces> parts;
+std::vector<PackedPieces> ShadowedRaster::follow_shadows(const Progress& progress) {
+    std::vector<PackedPieces> parts;
     GrowingParts growing(parts);
     FaceBatch batch(thrown_, most_);
     const LongLoop loop(thrown_.face_count(), progress, cancel_, 1);
@@ -550,12 +550,12 @@ ShadowedPieces shadowed_cell_raster(
     const std::size_t vertices = screen.vertices.size();
     std::vector<std::pair<std::uint32_t, std::uint32_t>> penetrating =
         std::move(before.penetrating);
-    std::vector<VisiblePieces> of_surfaces; // in parts: what edges are compared with is there yet
-    std::vector<VisiblePieces> parts;
+    std::vector<PackedPieces> of_surfaces; // in parts: what edges are compared with is there yet
+    std::vector<PackedPieces> parts;
     KeptVertices kept;
     {
         ThrownShadows own = std::move(thrown);
-        std::vector<VisiblePieces> parts_before = parted(before);
+        std::vector<PackedPieces> parts_before = parts_of(before);
         free_room(before.points);
         free_room(before.pieces);
         ShadowedRaster raster(
@@ -563,8 +563,8 @@ ShadowedPieces shadowed_cell_raster(
         of_surfaces =
             raster.follow_surfaces(std::move(parts_before), progress_between(progress, 0.2, 0.6));
         std::size_t surfaces = 0;
-        for (const VisiblePieces& part : of_surfaces)
-            surfaces += part.pieces.size();
+        for (const PackedPieces& part : of_surfaces)
+            surfaces += part.size();
         const double pieces = static_cast<double>(surfaces) + raster.expected_of_shadows();
         require_piece_memory(pieces);
         if (expect)
