@@ -17,8 +17,8 @@ bool is_straight_on(ScreenStep a, ScreenStep b) {
     return cross(a, b) == 0;
 }
 
-/// The ways beside which something is seen, in parts that have no region in common; those of one
-/// part in ascending order.
+/// Ways with which rings may begin, in parts that have no region in common; those of one part in
+/// ascending order.
 struct PartedWays {
     std::vector<std::uint32_t> ways;
     std::vector<std::size_t> starts; ///< of the parts, and the end
@@ -41,8 +41,12 @@ parts_of_regions(const Ways& ways, std::size_t regions, std::size_t ways_of_a_pa
 }
 
 /// By where each region begins, as ways of one are near each other in memory. Threads share the
-/// blocks of ways.
-PartedWays parted_by_region(const Ways& ways, std::size_t regions, const CancelFlag* cancel) {
+/// blocks of ways. A ring begins with the first of its ways, which no way before it follows.
+PartedWays parted_by_region(
+    const Ways& ways,
+    std::size_t regions,
+    std::span<const std::uint32_t> next,
+    const CancelFlag* cancel) {
     constexpr std::size_t most_parts = 1024;
     constexpr std::size_t least_of_a_part = 4096;
     constexpr std::size_t ways_of_a_block = 65536;
@@ -54,7 +58,7 @@ PartedWays parted_by_region(const Ways& ways, std::size_t regions, const CancelF
         stop_if_raised(cancel);
         const std::size_t end = std::min(ways.count(), (number + 1) * ways_of_a_block);
         for (std::size_t way = number * ways_of_a_block; way < end; ++way)
-            if (ways.region[way] != no_region)
+            if (ways.region[way] != no_region && next[way] >= way)
                 visit(way, part_of[ways.region[way]]);
     };
     // By part and block within it, so that the ways of a part stay in their order.
@@ -76,11 +80,27 @@ PartedWays parted_by_region(const Ways& ways, std::size_t regions, const CancelF
     return parted;
 }
 
+/// Of each way, whether the one that follows goes another way, or has something else across.
+std::vector<std::uint8_t>
+ways_before_corners(const Ways& ways, std::span<const std::uint32_t> next) {
+    std::vector<std::uint8_t> result(next.size());
+    parallel_ranges(next.size(), 4096, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const auto way = static_cast<std::uint32_t>(i);
+            const bool goes_on = is_straight_on(ways.direction(way), ways.direction(next[i]))
+                && ways.region[way ^ 1U] == ways.region[next[i] ^ 1U];
+            result[i] = goes_on ? 0 : 1;
+        }
+    });
+    return result;
+}
+
 /// The ring along the way. next[i] is the way that follows way i, and none from now on of those
 /// along the ring.
 void trace_ring(
     std::uint32_t first,
     const Ways& ways,
+    std::span<const std::uint8_t> is_before_corner,
     RingDetail detail,
     std::span<std::uint32_t> next,
     TracedRings& traced) {
@@ -97,8 +117,7 @@ void trace_ring(
             traced.joined_sides.push_back(traced.ring_vertices.size());
             add(ways.to(way), no_region);
         }
-        if (is_joined || !is_straight_on(ways.direction(way), ways.direction(after))
-            || ways.region[way ^ 1U] != ways.region[after ^ 1U])
+        if (is_joined || is_before_corner[way] != 0)
             add(ways.from(after), ways.region[after ^ 1U]);
         way = after;
     } while (way != first);
@@ -107,20 +126,19 @@ void trace_ring(
 } // namespace
 
 std::vector<TracedRings> traced_rings(
-    const Ways& ways,
+    Ways ways,
     std::size_t regions,
     RingDetail detail,
     std::vector<std::uint32_t> next,
     const Progress& progress,
     const CancelFlag* cancel) {
-    const PartedWays parted = parted_by_region(ways, regions, cancel);
+    const std::vector<std::uint8_t> is_before_corner = ways_before_corners(ways, next);
+    free_room(ways.steps); // before there are the rings
+    const PartedWays parted = parted_by_region(ways, regions, next, cancel);
     std::vector<TracedRings> parts(parted.starts.size() - 1);
     long_parallel_loop(parts.size(), progress, cancel, 1, [&](std::size_t part) {
         TracedRings traced;
         const std::span<const std::uint32_t> own = parted.of(part);
-        traced.ring_vertices.reserve(own.size()); // hardly fewer
-        if (detail == RingDetail::with_across)
-            traced.ring_across.reserve(own.size());
         const LongLoop loop(own.size(), {}, cancel);
         for (std::size_t i = 0; i < own.size(); ++i) {
             loop.turn(i);
@@ -128,8 +146,11 @@ std::vector<TracedRings> traced_rings(
                 continue;
             traced.rings.push_back(
                 {ways.region[own[i]], static_cast<std::uint32_t>(traced.ring_vertices.size())});
-            trace_ring(own[i], ways, detail, next, traced);
+            trace_ring(own[i], ways, is_before_corner, detail, next, traced);
         }
+        traced.rings.shrink_to_fit();
+        traced.ring_vertices.shrink_to_fit();
+        traced.ring_across.shrink_to_fit();
         parts[part] = std::move(traced);
     });
     return parts;

@@ -36,7 +36,7 @@ struct TracedRings {
 /// The rings of all regions, of which there are so many, those of each in one part. next[i] is the
 /// way that follows way i on the border of its region. Throws Cancelled.
 std::vector<TracedRings> traced_rings(
-    const Ways& ways,
+    Ways ways,
     std::size_t regions,
     RingDetail detail,
     std::vector<std::uint32_t> next,

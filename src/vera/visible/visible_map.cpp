@@ -331,10 +331,9 @@ Ways ways_of(
     stages.next(1);
     const auto add = [&](std::size_t i) {
         const VisiblePiece& piece = pieces.pieces[i];
-        ways.pieces[i] = {
-            piece.from,
-            piece.to,
-            step(scene.vertices[piece.edge.begin].point, scene.vertices[piece.edge.end].point)};
+        ways.ends[i] = {piece.from, piece.to};
+        ways.steps[i] =
+            step(scene.vertices[piece.edge.begin].point, scene.vertices[piece.edge.end].point);
         for_each_region(i, [&](std::size_t way, VisibleMap::Region region) {
             ways.region[way] = regions.number(region);
         });
@@ -361,10 +360,11 @@ std::vector<TracedRings> found_rings(
     const CancelFlag* cancel,
     VisibleMap& map) {
     StageProgress stages(progress, 3);
-    const Ways ways = ways_of(origin, stages.next(1), cancel, map);
+    Ways ways = ways_of(origin, stages.next(1), cancel, map);
     origin.forget();
     std::vector<std::uint32_t> next = following(ways, stages.next(1), cancel, map);
-    return traced_rings(ways, map.regions.size(), detail, std::move(next), stages.next(1), cancel);
+    return traced_rings(
+        std::move(ways), map.regions.size(), detail, std::move(next), stages.next(1), cancel);
 }
 
 VisibleMap made_map(

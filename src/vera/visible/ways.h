@@ -16,20 +16,21 @@ constexpr std::uint32_t no_way = ~std::uint32_t{0};
 /// beside the points, and smaller than pieces and scene, which are not asked any more.
 class Ways {
 public:
-    struct Piece {
+    struct Ends {
         std::uint32_t from = 0;
         std::uint32_t to = 0;
-        LineStep step; ///< along the whole edge
     };
 
     /// Of no piece, but with room for so many.
     explicit Ways(std::size_t most) {
-        pieces.reserve(most);
+        ends.reserve(most);
+        steps.reserve(most);
         region.reserve(2 * most);
     }
 
     void resize(std::size_t count) {
-        pieces.resize(count);
+        ends.resize(count);
+        steps.resize(count);
         region.resize(2 * count, no_region);
     }
 
@@ -37,7 +38,7 @@ public:
 
     /// Where the way begins.
     std::uint32_t from(std::uint32_t way) const {
-        const Piece& piece = pieces[way / 2];
+        const Ends& piece = ends[way / 2];
         return way % 2 == 0 ? piece.from : piece.to;
     }
 
@@ -45,11 +46,12 @@ public:
 
     /// Along the whole edge.
     ScreenStep direction(std::uint32_t way) const {
-        const ScreenStep step = pieces[way / 2].step;
+        const ScreenStep step = steps[way / 2];
         return way % 2 == 0 ? step : ScreenStep{-step.x, -step.y};
     }
 
-    std::vector<Piece> pieces;
+    std::vector<Ends> ends;            ///< of the pieces
+    std::vector<LineStep> steps;       ///< along their whole edges
     std::vector<std::uint32_t> region; ///< seen on the left of each way
 };
 
