@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/penetrations.h"
 
+#include "vera/base/free_room.h"
 #include "vera/base/long_loop.h"
 #include "vera/base/progress_part.h"
 #include "vera/exact/front_order.h"
@@ -230,10 +231,12 @@ WholePieces whole_pieces(
         ? swept(first_round)
         : cell_raster_parts(scene, first_round, cancel, expect);
     while (true) {
+        give_back_freed_memory(); // of what edges were compared with, and of parts
         const bool may_be_last =
             result.rounds == most_rounds || scene.triangles.size() > most_triangles;
         if (seen.penetrating.empty() || may_be_last) {
             result.pieces = joined(std::move(seen));
+            give_back_freed_memory();
             close_ways(scene, result.pieces, open, cancel);
             result.opened = open.size();
             result.left = result.pieces.penetrating.size();

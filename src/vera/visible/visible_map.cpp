@@ -302,6 +302,7 @@ struct MapOrigin {
             free_room(given_pieces->pieces);
         if (given_unlit != nullptr)
             free_room(*given_unlit);
+        give_back_freed_memory();
     }
 };
 
