@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/cell_raster_stages.h"
 
+#include "vera/base/free_room.h"
 #include "vera/base/long_loop.h"
 #include "vera/base/progress_part.h"
 #include "vera/visible/drawing_memory.h"
@@ -161,7 +162,7 @@ CellRaster raster_of(
     next_stage();
     raster.edges = screen_edges(scene);
     next_stage();
-    const std::vector<EdgeNeighbours> neighbours = edge_neighbours(scene, raster.edges);
+    std::vector<EdgeNeighbours> neighbours = edge_neighbours(scene, raster.edges);
     if (std::ranges::any_of(scene.triangles, &ScreenTriangle::is_shadow)) {
         raster.shadowed = shadowed_sources(scene, raster.edges);
         raster.inner.resize(neighbours.size());
@@ -180,6 +181,7 @@ CellRaster raster_of(
     if (!raster.within_source.empty())
         raster.has_one_source = cells_of_one_source(scene, raster.cells);
     raster.shadow_cells = shadow_cells_of(raster.cells, scene, raster.slopes, cancel);
+    free_room(neighbours);
     next_stage();
     hide_edges(raster, 0, 0, HiddenSquares(raster.cells), cancel);
     return raster;

@@ -25,6 +25,21 @@ constexpr std::uint32_t before(std::uint64_t number) {
     return as_32_bits(number) - 1;
 }
 
+/// Where triangles have no vertices in common, those of an edge follow each other.
+PackedRows<6>::Row row_of(const VisiblePiece& piece) {
+    return {
+        piece.from,
+        piece.to,
+        piece.edge.begin,
+        piece.edge.end - piece.edge.begin,
+        after(piece.left),
+        after(piece.right)};
+}
+
+ScreenEdges::Edge edge_of(std::uint64_t begin, std::uint64_t length) {
+    return {as_32_bits(begin), as_32_bits(begin + length)};
+}
+
 } // namespace
 
 PackedPieces::PackedPieces(const VisiblePieces& list)
@@ -42,18 +57,7 @@ PackedPieces::PackedPieces(const VisiblePieces& list)
                 bits(point.y_numerator),
                 bits(point.denominator)};
         })
-    , pieces(
-          list.pieces.size(),
-          [&](std::size_t i) {
-              const VisiblePiece& piece = list.pieces[i];
-              return PackedRows<6>::Row{
-                  piece.from,
-                  piece.to,
-                  piece.edge.begin,
-                  piece.edge.end,
-                  after(piece.left),
-                  after(piece.right)};
-          })
+    , pieces(list.pieces.size(), [&](std::size_t i) { return row_of(list.pieces[i]); })
     , unlit(
           list.unlit.size(),
           [&](std::size_t i) {
@@ -62,17 +66,12 @@ PackedPieces::PackedPieces(const VisiblePieces& list)
     , penetrating(list.penetrating) {}
 
 VisiblePiece PackedPieces::piece(std::size_t i) const {
-    const auto [from, to, begin, end, left, right] = pieces[i];
-    return {
-        as_32_bits(from),
-        as_32_bits(to),
-        {as_32_bits(begin), as_32_bits(end)},
-        before(left),
-        before(right)};
+    const auto [from, to, begin, length, left, right] = pieces[i];
+    return {as_32_bits(from), as_32_bits(to), edge_of(begin, length), before(left), before(right)};
 }
 
 ScreenEdges::Edge PackedPieces::edge(std::size_t i) const {
-    return {as_32_bits(pieces.at(i, 2)), as_32_bits(pieces.at(i, 3))};
+    return edge_of(pieces.at(i, 2), pieces.at(i, 3));
 }
 
 UnlitBeside PackedPieces::unlit_beside(std::size_t i) const {

@@ -27,7 +27,7 @@ struct PackedPieces {
     VisiblePieces unpacked() const;
 
     PackedRows<5> points; ///< RationalPoint
-    PackedRows<6> pieces; ///< VisiblePiece, of triangles the number that follows
+    PackedRows<6> pieces; ///< VisiblePiece, as row_of() has it
     PackedRows<2> unlit;  ///< UnlitBeside, or empty
     std::vector<std::pair<std::uint32_t, std::uint32_t>> penetrating;
 };

@@ -31,7 +31,7 @@ public:
 
 private:
     void give_back_much() {
-        constexpr std::size_t much = std::size_t{6} << 20U;
+        constexpr std::size_t much = std::size_t{3} << 20U;
         if (bytes_ < much)
             return;
         give_back_freed_memory();
