@@ -158,7 +158,6 @@ CellRaster raster_of(
     next_stage();
     require_raster_memory(scene);
     CellRaster raster = {scene, slopes_of(scene), {}, {}, {}, {}, {}, 0, {}, {}, {}, {}, {}};
-    add_corners(raster);
     next_stage();
     raster.edges = screen_edges(scene);
     next_stage();
@@ -184,6 +183,7 @@ CellRaster raster_of(
     free_room(neighbours);
     next_stage();
     hide_edges(raster, 0, 0, HiddenSquares(raster.cells), cancel);
+    add_corners(raster); // which only those ask who follow edges
     return raster;
 }
 

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <span>
 #include <tuple>
+#include <utility>
 
 namespace vera {
 
@@ -30,19 +31,27 @@ all_open_points(const ScreenScene& scene, const VisiblePieces& pieces, double wi
         return scrambled_bits(
             triangle == no_triangle ? no_source : scene.triangles[triangle].source);
     };
-    std::vector<std::uint64_t> sums(pieces.points.size());
-    for (const VisiblePiece& piece : pieces.pieces) {
-        const std::uint64_t difference = number(piece.left) - number(piece.right);
-        sums[piece.from] += difference;
-        sums[piece.to] -= difference;
-    }
     std::vector<OpenPoint> open;
-    for (std::size_t i = 0; i < sums.size(); ++i)
-        if (sums[i] != 0) {
-            const double x = pieces.points[i].x();
-            const auto strip = static_cast<std::int64_t>(std::floor(x / width_of_strips));
-            open.push_back({strip, x, pieces.points[i].y(), sums[i], i});
+    // Half of the points at a time, as all pieces are there.
+    const std::size_t count = pieces.points.size();
+    for (const auto& [first, last] : {std::pair{std::size_t{0}, count / 2}, {count / 2, count}}) {
+        std::vector<std::uint64_t> sums(last - first);
+        const auto add = [&](std::size_t point, std::uint64_t difference) {
+            if (point >= first && point < last)
+                sums[point - first] += difference;
+        };
+        for (const VisiblePiece& piece : pieces.pieces) {
+            const std::uint64_t difference = number(piece.left) - number(piece.right);
+            add(piece.from, difference);
+            add(piece.to, 0 - difference);
         }
+        for (std::size_t i = first; i < last; ++i)
+            if (const std::uint64_t sum = sums[i - first]; sum != 0) {
+                const double x = pieces.points[i].x();
+                const auto strip = static_cast<std::int64_t>(std::floor(x / width_of_strips));
+                open.push_back({strip, x, pieces.points[i].y(), sum, i});
+            }
+    }
     std::sort(open.begin(), open.end(), [](const OpenPoint& a, const OpenPoint& b) {
         return std::tuple(a.strip, a.y, a.number) < std::tuple(b.strip, b.y, b.number);
     });

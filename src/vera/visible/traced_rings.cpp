@@ -81,15 +81,15 @@ PartedWays parted_by_region(
 }
 
 /// Of each way, whether the one that follows goes another way, or has something else across.
-std::vector<std::uint8_t>
-ways_before_corners(const Ways& ways, std::span<const std::uint32_t> next) {
-    std::vector<std::uint8_t> result(next.size());
-    parallel_ranges(next.size(), 4096, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
+std::vector<bool> ways_before_corners(const Ways& ways, std::span<const std::uint32_t> next) {
+    std::vector<bool> result(next.size());
+    constexpr std::size_t block = 4096; // whole words, so that no two threads write one
+    parallel_ranges((next.size() + block - 1) / block, 1, [&](std::size_t number, std::size_t) {
+        for (std::size_t i = number * block; i < std::min(next.size(), (number + 1) * block); ++i) {
             const auto way = static_cast<std::uint32_t>(i);
             const bool goes_on = is_straight_on(ways.direction(way), ways.direction(next[i]))
                 && ways.region[way ^ 1U] == ways.region[next[i] ^ 1U];
-            result[i] = goes_on ? 0 : 1;
+            result[i] = !goes_on;
         }
     });
     return result;
@@ -100,7 +100,7 @@ ways_before_corners(const Ways& ways, std::span<const std::uint32_t> next) {
 void trace_ring(
     std::uint32_t first,
     const Ways& ways,
-    std::span<const std::uint8_t> is_before_corner,
+    const std::vector<bool>& is_before_corner,
     RingDetail detail,
     std::span<std::uint32_t> next,
     TracedRings& traced) {
@@ -117,7 +117,7 @@ void trace_ring(
             traced.joined_sides.push_back(traced.ring_vertices.size());
             add(ways.to(way), no_region);
         }
-        if (is_joined || is_before_corner[way] != 0)
+        if (is_joined || is_before_corner[way])
             add(ways.from(after), ways.region[after ^ 1U]);
         way = after;
     } while (way != first);
@@ -132,7 +132,7 @@ std::vector<TracedRings> traced_rings(
     std::vector<std::uint32_t> next,
     const Progress& progress,
     const CancelFlag* cancel) {
-    const std::vector<std::uint8_t> is_before_corner = ways_before_corners(ways, next);
+    const std::vector<bool> is_before_corner = ways_before_corners(ways, next);
     free_room(ways.steps); // before there are the rings
     const PartedWays parted = parted_by_region(ways, regions, next, cancel);
     std::vector<TracedRings> parts(parted.starts.size() - 1);

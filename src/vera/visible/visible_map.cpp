@@ -340,7 +340,7 @@ Ways ways_of(
         });
     };
     // A few at a time, whose ways may take the room of the pieces before.
-    constexpr std::size_t at_a_time = 32 * block;
+    constexpr std::size_t at_a_time = 16 * block;
     for (std::size_t begin = 0; begin < count; begin += at_a_time) {
         const std::size_t end = std::min(count, begin + at_a_time);
         ways.resize(end);
