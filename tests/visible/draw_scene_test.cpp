@@ -101,6 +101,28 @@ DrawnBorders borders_of(const Sample& sample, const CancelFlag* cancel) {
         cancel);
 }
 
+TEST(DrawScene, LinesAreTheSameHoweverWhatIsSeenWasFound) {
+    for (int seed = 0; seed < 50; ++seed) {
+        testing::RandomSceneSettings random;
+        random.items = static_cast<std::size_t>(4 + seed % 9);
+        Sample sample;
+        const std::vector<PointLight> lights = sample.scene.lights;
+        sample.scene = testing::random_scene(static_cast<std::uint64_t>(seed), random);
+        sample.scene.lights = lights;
+        sample.camera = testing::camera_number(seed);
+        DrawSettings settings;
+        settings.style = DrawingStyle::hidden_lines;
+        settings.deviation = 0.5;
+        settings.shadow_lines = seed % 2 == 0;
+        std::string by_cells;
+        write_svg(sample.draw(settings, {}, nullptr).drawing, {}, by_cells);
+        settings.engine = VisibilityEngine::sweep;
+        std::string by_sweep;
+        write_svg(sample.draw(settings, {}, nullptr).drawing, {}, by_sweep);
+        EXPECT_TRUE(by_cells == by_sweep) << "seed " << seed;
+    }
+}
+
 TEST(DrawScene, OutlinesThatAreMadeWhileTheyAreWrittenAreTheSame) {
     Sample sample;
     for (const DrawingStyle style :

@@ -109,6 +109,43 @@ TEST(PieceLists, PartsOfAListAreTheListWhenTheyAreJoined) {
     }
 }
 
+TEST(PieceLists, PiecesAreJoinedAlongAnEdgeWhereNothingElseEnds) {
+    const auto at = [](std::int32_t x) {
+        RationalPoint point;
+        point.whole.x = x;
+        return PackedPoint(point);
+    };
+    VisiblePieces list;
+    for (std::int32_t x = 0; x <= 7; ++x)
+        list.points.push_back(at(x));
+    const ScreenEdges::Edge edge = {0, 1};
+    list.pieces = {
+        {0, 1, edge, 4, 5},
+        {1, 2, edge, 4, 5},
+        {2, 3, edge, 4, 5},
+        {3, 4, edge, 4, 5}, // behind the end of another
+        {4, 5, edge, 4, 6}, // beside another
+        {5, 6, edge, 4, 6}, // in other light
+        {6, 7, {0, 2}, 4, 6},
+        {3, 7, {1, 2}, 4, 5}};
+    list.unlit.resize(list.pieces.size());
+    list.unlit[5].right = 1;
+    VisiblePieces expected;
+    for (const std::int32_t x : {0, 3, 4, 5, 6, 7})
+        expected.points.push_back(at(x));
+    expected.pieces = {
+        {0, 1, edge, 4, 5},
+        {1, 2, edge, 4, 5},
+        {2, 3, edge, 4, 6},
+        {3, 4, edge, 4, 6},
+        {4, 5, {0, 2}, 4, 6},
+        {1, 5, {1, 2}, 4, 5}};
+    expected.unlit.resize(expected.pieces.size());
+    expected.unlit[3].right = 1;
+    join_along_edges(list);
+    expect_same(list, expected, 0);
+}
+
 TEST(PieceLists, KeptAndFoundPiecesAreMergedAsAllByTheirEdges) {
     std::size_t kept = 0;
     std::size_t both = 0;

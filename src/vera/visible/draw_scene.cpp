@@ -11,6 +11,7 @@
 #include "vera/visible/outline_fills.h"
 #include "vera/visible/outline_strokes.h"
 #include "vera/visible/penetrations.h"
+#include "vera/visible/piece_lists.h"
 #include "vera/visible/projection.h"
 #include "vera/visible/shadowed_raster.h"
 #include "vera/visible/shadows.h"
@@ -313,8 +314,10 @@ std::size_t count_seen_faces(const VisibleMap& map) {
 /// What is seen as regions. The pieces are kept where lines are drawn of them, and the screen too.
 /// In style ids nothing asks what is seen across a ring, but for the check.
 VisibleMap map_of(const Request& request, SeenScene& seen, const Progress& progress) {
-    if (has_lines(request.settings.style)) // which ask for faces alone, not for lights
+    if (has_lines(request.settings.style)) { // which ask for faces alone, not for lights
+        join_along_edges(seen.whole.pieces); // lines are made of pieces
         return visible_map_with_points_of(seen.whole.pieces, seen.screen, progress, request.cancel);
+    }
     const bool asks_across = !request.is_in_numbers() || request.settings.check;
     return visible_map(
         std::move(seen.screen),

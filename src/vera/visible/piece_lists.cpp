@@ -276,6 +276,69 @@ merged(std::vector<PackedPieces> before, std::vector<PackedPieces> found) {
     return result;
 }
 
+namespace {
+
+/// Leaves out the other pieces and the points that only they have. The list keeps its room, but not
+/// the memory of what is not used.
+void keep_pieces(const std::vector<std::uint8_t>& is_kept, VisiblePieces& list) {
+    const std::size_t count = list.pieces.size();
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        if (is_kept[i] == 0)
+            continue;
+        list.pieces[kept] = list.pieces[i];
+        if (!list.unlit.empty())
+            list.unlit[kept] = list.unlit[i];
+        ++kept;
+    }
+    list.pieces.resize(kept);
+    give_back_unused(list.pieces);
+    list.unlit.resize(list.unlit.empty() ? 0 : kept);
+    give_back_unused(list.unlit);
+    constexpr std::uint32_t unused = ~std::uint32_t{0};
+    std::vector<std::uint32_t> numbers(list.points.size(), unused);
+    for (const VisiblePiece& piece : list.pieces)
+        numbers[piece.from] = numbers[piece.to] = 0;
+    std::uint32_t points = 0;
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+        if (numbers[i] != unused) {
+            list.points[points] = list.points[i];
+            numbers[i] = points++;
+        }
+    list.points.resize(points);
+    give_back_unused(list.points);
+    for (VisiblePiece& piece : list.pieces) {
+        piece.from = numbers[piece.from];
+        piece.to = numbers[piece.to];
+    }
+}
+
+} // namespace
+
+void join_along_edges(VisiblePieces& list) {
+    std::vector<std::uint8_t> ends(list.points.size()); // at each point, or 3 of more
+    for (const VisiblePiece& piece : list.pieces)
+        for (const std::uint32_t point : {piece.from, piece.to})
+            ends[point] = static_cast<std::uint8_t>(std::min(ends[point] + 1, 3));
+    const auto goes_on = [&](std::size_t before, std::size_t after) {
+        const VisiblePiece& a = list.pieces[before];
+        const VisiblePiece& b = list.pieces[after];
+        const UnlitBeside unlit_a = list.unlit_beside(before);
+        const UnlitBeside unlit_b = list.unlit_beside(after);
+        return a.to == b.from && ends[b.from] == 2 && a.edge == b.edge && a.left == b.left
+            && a.right == b.right && unlit_a.left == unlit_b.left && unlit_a.right == unlit_b.right;
+    };
+    std::vector<std::uint8_t> is_kept(list.pieces.size(), 1);
+    for (std::size_t first = 0, i = 1; i < list.pieces.size(); ++i)
+        if (goes_on(first, i)) {
+            list.pieces[first].to = list.pieces[i].to;
+            is_kept[i] = 0;
+        } else {
+            first = i;
+        }
+    keep_pieces(is_kept, list);
+}
+
 VisiblePieces merged(VisiblePieces before, VisiblePieces found) {
     constexpr std::uint32_t none = PointNumbers::none;
     if (before.pieces.empty())
