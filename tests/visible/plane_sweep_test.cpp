@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/drawn_faces.h"
 #include "vera/visible/penetrations.h"
+#include "vera/visible/piece_lists.h"
 #include "vera/visible/plane_sweep.h"
 #include "vera/visible/projection.h"
 #include "vera/visible/visible_map.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -37,6 +39,21 @@ void expect_same_maps(const VisibleMap& a, const VisibleMap& b, const std::strin
     }
 }
 
+/// Number for number, where edges are parted only by what is seen.
+void expect_same_pieces(VisiblePieces by_cells, VisiblePieces by_sweep, const std::string& what) {
+    join_along_edges(by_cells);
+    join_along_edges(by_sweep);
+    EXPECT_TRUE(by_cells.points == by_sweep.points) << what;
+    EXPECT_TRUE(std::ranges::equal(
+        by_cells.pieces,
+        by_sweep.pieces,
+        [](const VisiblePiece& a, const VisiblePiece& b) {
+            return a.from == b.from && a.to == b.to && a.edge == b.edge && a.left == b.left
+                && a.right == b.right;
+        }))
+        << what;
+}
+
 void expect_same(const ScreenScene& scene, const std::string& what) {
     const VisiblePieces by_cells = cell_raster(scene);
     const VisiblePieces by_sweep = plane_sweep(scene);
@@ -46,6 +63,7 @@ void expect_same(const ScreenScene& scene, const std::string& what) {
     EXPECT_EQ(expected.size(), found.size()) << what;
     EXPECT_TRUE(expected == found) << what;
     expect_same_maps(visible_map(scene, by_sweep), visible_map(scene, by_cells), what);
+    expect_same_pieces(by_cells, by_sweep, what);
 }
 
 TEST(PlaneSweep, SeesLikeTheCellsWhatLiesInLayersOnFewPoints) {
@@ -173,6 +191,22 @@ TEST(PlaneSweep, SeesLikeTheCellsTanglesAfterCutting) {
 TEST(PlaneSweep, TellsLikeTheCellsWhatPenetrates) {
     for (std::uint64_t seed = 0; seed < 250; ++seed) {
         const ScreenScene scene = testing::tangle(seed, 2 + seed % 30);
+        EXPECT_EQ(plane_sweep(scene).penetrating, cell_raster(scene).penetrating)
+            << "seed " << seed;
+    }
+}
+
+TEST(PlaneSweep, TellsLikeTheCellsWhatPenetratesThePairsOfAFoldedSurface) {
+    for (std::uint64_t seed = 0; seed < 400; ++seed) {
+        // Both of a pair have a side in common: what passes through one there meets the other at
+        // the same place.
+        ScreenScene scene = testing::tangle(seed, 2 + seed % 20);
+        const std::size_t count = scene.triangles.size();
+        for (std::size_t i = 0; i < count; ++i) {
+            const auto& [a, b, c] = scene.triangles[i].vertices;
+            const auto third = static_cast<std::uint32_t>((c + 3 * seed + 3) % (3 * count));
+            add_triangle(scene, {a, b, third}, static_cast<std::uint32_t>(count + i));
+        }
         EXPECT_EQ(plane_sweep(scene).penetrating, cell_raster(scene).penetrating)
             << "seed " << seed;
     }

@@ -200,10 +200,20 @@ void SeenBeside::find_penetrating(Top first, Top last, const Front& front) {
     const double at_first = one.near_at(first.part) - other.near_at(first.part);
     const double at_last = one.near_at(last.part) - other.near_at(last.part);
     const double part = first.part + (last.part - first.part) * (at_first / (at_first - at_last));
+    const auto do_penetrate = [&](const Candidate& a, const Candidate& b) {
+        return triangle_order(scene_, slopes_, a.triangle, b.triangle) == FrontOrder::penetrating;
+    };
     if (part > first.part && part < last.part) {
-        // Something else may be in front where these two meet.
+        // Something else may be in front where these two meet, and then passes through both. What
+        // is coincident with one of them, or meets both there, is so by rounding alone, which is
+        // another one of each part of an edge.
+        constexpr double rounding = 0.5; // steps of nearness
         const Top between = top_at(part, front);
-        if (between.candidate != first.candidate && between.candidate != last.candidate) {
+        const Candidate& third = candidates_[between.candidate];
+        const double nearest = std::max(one.near_at(part), other.near_at(part));
+        if (between.candidate != first.candidate && between.candidate != last.candidate
+            && third.near_at(part) > nearest + rounding && do_penetrate(one, third)
+            && do_penetrate(third, other)) {
             find_penetrating(first, between, front);
             find_penetrating(between, last, front);
             return;
@@ -211,7 +221,7 @@ void SeenBeside::find_penetrating(Top first, Top last, const Front& front) {
     }
     // Where order goes round, tops may change between two that do not pass through each other:
     // there is nothing to cut.
-    if (triangle_order(scene_, slopes_, one.triangle, other.triangle) == FrontOrder::penetrating)
+    if (do_penetrate(one, other))
         penetrating_->push_back(std::minmax(one.triangle, other.triangle));
 }
 
