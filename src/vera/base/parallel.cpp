@@ -5,6 +5,7 @@
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
 
 #ifdef VERA_THREAD_SANITIZER
 extern "C" void __tsan_acquire(void* address); // NOLINT(bugprone-reserved-identifier)
@@ -103,6 +104,10 @@ ThreadLimit::ThreadLimit(std::size_t threads)
                          threads == 0 ? static_cast<std::size_t>(tbb::info::default_concurrency())
                                       : threads)) {
     limits_to_one += control_ == nullptr ? 1 : 0;
+    // So that oneTBB's threads start now, while the caller reads its input, and not in its first
+    // loop, which would wait for them.
+    if (control_ != nullptr)
+        tbb::task_arena(tbb::attach()).enqueue([] {});
 }
 
 ThreadLimit::~ThreadLimit() {

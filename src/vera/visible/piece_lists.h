@@ -48,13 +48,13 @@ VisiblePieces joined(std::vector<PackedPieces> parts, std::size_t others = 0);
 /// that, when they are joined, are as if all had been found together. Without what penetrates.
 std::vector<PackedPieces> merged(std::vector<PackedPieces> before, std::vector<PackedPieces> found);
 
+/// The same of lists. Lights are those of both; what penetrates is that which was found. Done in
+/// the room of the larger list, where that suffices.
+VisiblePieces merged(VisiblePieces before, VisiblePieces found);
+
 /// Makes one piece of those that follow each other on an edge, with the same beside them, where
 /// nothing else ends. Where edges are parted so is a matter of how what is seen was found: what is
 /// left is not.
 void join_along_edges(VisiblePieces& list);
-
-/// The same of lists. Lights are those of both; what penetrates is that which was found. Done in
-/// the room of the larger list, where that suffices.
-VisiblePieces merged(VisiblePieces before, VisiblePieces found);
 
 } // namespace vera
