@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/base/large_pages.h"
 
+#include <atomic>
 #include <cerrno>
 #include <cstdint>
 #include <cstdlib>
@@ -10,6 +11,7 @@
 #endif
 #ifdef __linux__
 #include <sys/mman.h>
+#include <unistd.h>
 #endif
 
 namespace vera {
@@ -17,6 +19,20 @@ namespace vera {
 namespace {
 
 constexpr std::uintptr_t large_page = std::uintptr_t{1} << 21U;
+
+#if defined(__GLIBC__) && defined(__linux__)
+
+/// From the page in which the first byte lies on, also where no large one is whole: beside what
+/// was asked for before, it may be.
+void prefer_large_pages_between(std::uintptr_t first, std::uintptr_t last) {
+    static const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
+    first -= first % page;
+    const int error_before = errno;
+    madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE);
+    errno = error_before;
+}
+
+#endif
 
 } // namespace
 
@@ -62,7 +78,26 @@ void begin_heap_in_large_pages() noexcept {
     unused_too = std::malloc(large_page - end % large_page);
     if (unused_too != nullptr)
         prefer_large_pages(unused_too, room, Written::nothing);
-    mallopt(M_TOP_PAD, usual_room);
+    mallopt(M_TOP_PAD, 2 * static_cast<int>(large_page)); // or it would grow by small pages
+#endif
+}
+
+void prefer_large_pages_for_block(const void* block, std::size_t bytes) noexcept {
+#if defined(__GLIBC__) && defined(__linux__)
+    constexpr std::size_t small = std::size_t{1} << 16U; // these are many
+    if (bytes < small)
+        return;
+    const auto first = reinterpret_cast<std::uintptr_t>(block);
+    if (bytes >= large_page)
+        return prefer_large_pages_between(first, first + bytes);
+    static std::atomic<std::uintptr_t> end_before = 0;          // of the heap
+    const auto end = reinterpret_cast<std::uintptr_t>(sbrk(0)); // which asks no system
+    const std::uintptr_t before = end_before.exchange(end, std::memory_order_relaxed);
+    if (before != 0 && before < end)
+        prefer_large_pages_between(before, end);
+#else
+    (void)block;
+    (void)bytes;
 #endif
 }
 

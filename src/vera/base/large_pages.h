@@ -21,4 +21,8 @@ void prefer_large_pages(const void* first, std::size_t bytes, Written written) n
 /// they are freed. Nothing is done where the C library is not GNU's.
 void begin_heap_in_large_pages() noexcept;
 
+/// The same for a block that malloc() has just made, and for what the heap grew by since it was
+/// last asked: for a program's operator new. Small blocks are passed over.
+void prefer_large_pages_for_block(const void* block, std::size_t bytes) noexcept;
+
 } // namespace vera

@@ -11,10 +11,13 @@ namespace vera {
 /// Where the system cannot do that, nothing happens.
 void give_back_pages(void* begin, void* end);
 
-/// Gives back the room that the vector has behind its elements and does not use now.
+/// Gives back the room that the vector has behind its elements and does not use now, from 2 MiB
+/// on: less is soon used again, and to be handed its pages anew takes longer than to fill them.
 template <typename T>
 void give_back_unused(std::vector<T>& vector) {
-    give_back_pages(vector.data() + vector.size(), vector.data() + vector.capacity());
+    constexpr std::size_t least = std::size_t{2} << 20U;
+    if ((vector.capacity() - vector.size()) * sizeof(T) >= least)
+        give_back_pages(vector.data() + vector.size(), vector.data() + vector.capacity());
 }
 
 /// Gives back the room of a vector's elements from first to before last, which nobody reads again
