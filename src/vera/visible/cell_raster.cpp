@@ -43,16 +43,29 @@ cells_of_change(const SceneChange& change, const CellRaster& raster, const Cells
 std::vector<std::uint8_t> edges_in(
     const std::vector<std::uint8_t>& is_changed, const CellRaster& raster, const Cells& cells) {
     std::vector<std::uint8_t> near(raster.edges.edges.size());
+    const CellsInRows changed_in_rows(cells, is_changed);
+    // By its box, which most are far by.
+    const auto may_be_near = [&](ScreenPoint a, ScreenPoint b) {
+        const auto [left, right] = std::minmax(a.x, b.x);
+        const auto [low, high] = std::minmax(a.y, b.y);
+        // for_each_cell_along() looks a step beside the edge.
+        const auto cell_of = [&](std::int32_t at) { return cells.cell_of(std::max(at, 0)); };
+        const std::int32_t last = cell_of(high + 1);
+        for (std::int32_t row = cell_of(low - 1); row <= last; ++row)
+            if (changed_in_rows.are_any({cell_of(left - 1), cell_of(right + 1)}, row))
+                return true;
+        return false;
+    };
     parallel_ranges(near.size(), 4096, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
             const auto point = [&](std::uint32_t vertex) {
                 return raster.scene.vertices[vertex].point;
             };
             const auto& [begin, end] = raster.edges.edges[i];
-            const bool is_far =
-                for_each_cell_along(cells, point(begin), point(end), [&](std::size_t cell) {
-                    return is_changed[cell] == 0;
-                });
+            const bool is_far = !may_be_near(point(begin), point(end))
+                || for_each_cell_along(cells, point(begin), point(end), [&](std::size_t cell) {
+                       return is_changed[cell] == 0;
+                   });
             near[i] = is_far ? 0 : 1;
         }
     });

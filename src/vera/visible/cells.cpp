@@ -63,10 +63,15 @@ public:
 private:
     static constexpr std::size_t group = 64; ///< triangles, which lie near each other
 
-    /// Heights in the picture.
+    /// Rows of cells, none where last < first.
     struct Reach {
-        std::int32_t least = screen_size;
-        std::int32_t most = 0;
+        std::int32_t first = std::numeric_limits<std::int32_t>::max();
+        std::int32_t last = -1;
+
+        void include(Reach other) {
+            first = std::min(first, other.first);
+            last = std::max(last, other.last);
+        }
     };
 
     /// Calls visit(triangle, row, RowOfCells) for the rows that triangles touch, of those of which
@@ -94,8 +99,8 @@ private:
     std::uint64_t most_entries() const { return 64 * std::uint64_t{nearness_.size()} + 65536; }
 
     void ask(const Cells& cells);
-    template <typename IsAsked>
-    void find_reaches(const IsAsked& is_asked);
+    template <typename ReachOf>
+    void find_reaches(const ReachOf& reach_of);
     void block(Cells& cells) const;
     void block_by_large_sheets(Cells& cells) const;
     bool block_by_sheets_of(const std::vector<std::uint8_t>& matter, Cells& cells) const;
@@ -111,7 +116,8 @@ private:
     std::vector<std::uint8_t> asked_cells_; ///< as AskedCell; empty: all are asked for
     std::vector<std::uint8_t> matters_; ///< of triangles, whether they may be in such a cell's list
     std::vector<double> nearness_;      ///< of triangles, for hiding
-    std::vector<Reach> reaches_;        ///< of groups, of the triangles near cells asked for
+    std::vector<Reach> reaches_;        ///< of triangles, from where to where cells are asked for
+    std::vector<Reach> group_reaches_;  ///< of groups, of all their triangles
 };
 
 CellLists::CellLists(
@@ -127,8 +133,9 @@ CellLists::CellLists(
     , sheets_(sheets)
     , matters_(scene.triangles.size())
     , nearness_(scene.triangles.size())
-    , reaches_((scene.triangles.size() + group - 1) / group) {
-    parallel_ranges(reaches_.size(), 64, [&](std::size_t first, std::size_t last) {
+    , reaches_(scene.triangles.size())
+    , group_reaches_((scene.triangles.size() + group - 1) / group) {
+    parallel_ranges(group_reaches_.size(), 64, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first * group; i < std::min(last * group, nearness_.size()); ++i) {
             const auto corners = corners_of(scene_, scene_.triangles[i]);
             nearness_[i] = nearest_for_hiding(
@@ -146,19 +153,20 @@ void CellLists::for_each_row(
     parallel_ranges(static_cast<std::size_t>(bands), 1, [&](std::size_t number, std::size_t) {
         const std::int32_t first = static_cast<std::int32_t>(number) * height;
         const std::int32_t last = first + height - 1;
-        for (std::size_t in = 0; in < reaches_.size(); ++in) {
+        for (std::size_t in = 0; in < group_reaches_.size(); ++in) {
             stop_if_raised(cancel_);
-            if (cells.cell_of(reaches_[in].most) < first
-                || cells.cell_of(reaches_[in].least) > last)
+            if (group_reaches_[in].last < first || group_reaches_[in].first > last)
                 continue;
             for (std::size_t i = in * group; i < std::min((in + 1) * group, nearness_.size());
                  ++i) {
-                if (matters_[i] == 0)
+                const Reach& reach = reaches_[i];
+                if (matters_[i] == 0 || reach.last < first || reach.first > last)
                     continue;
                 const auto corners = corners_of(scene_, scene_.triangles[i]);
                 if (!does_matter(i, corners))
                     continue;
-                RowsOfCells rows(cells, corners, first, last);
+                RowsOfCells rows(
+                    cells, corners, std::max(first, reach.first), std::min(last, reach.last));
                 for (std::int32_t row = rows.first(); row <= rows.last(); ++row)
                     visit(static_cast<std::uint32_t>(i), row, rows.next());
             }
@@ -200,21 +208,16 @@ void CellLists::fill_lists(Cells& cells, const DoesMatter& does_matter) const {
     cells.starts.pop_back();
 }
 
-/// Of the groups, and notes which triangles is_asked(corners) is true of.
-template <typename IsAsked>
-void CellLists::find_reaches(const IsAsked& is_asked) {
-    parallel_ranges(reaches_.size(), 64, [&](std::size_t first, std::size_t last) {
-        std::fill(reaches_.data() + first, reaches_.data() + last, Reach{});
+/// reach_of(corners) of the triangles, and of the groups; those that have none do not matter.
+template <typename ReachOf>
+void CellLists::find_reaches(const ReachOf& reach_of) {
+    parallel_ranges(group_reaches_.size(), 64, [&](std::size_t first, std::size_t last) {
+        std::fill(group_reaches_.data() + first, group_reaches_.data() + last, Reach{});
         for (std::size_t i = first * group; i < std::min(last * group, nearness_.size()); ++i) {
-            const auto corners = corners_of(scene_, scene_.triangles[i]);
-            matters_[i] = is_asked(corners) ? 1 : 0;
-            if (matters_[i] == 0)
-                continue;
-            Reach& reach = reaches_[i / group];
-            for (const ScreenVertex& corner : corners) {
-                reach.least = std::min(reach.least, corner.point.y);
-                reach.most = std::max(reach.most, corner.point.y);
-            }
+            reaches_[i] = reach_of(corners_of(scene_, scene_.triangles[i]));
+            matters_[i] = reaches_[i].first <= reaches_[i].last ? 1 : 0;
+            if (matters_[i] != 0)
+                group_reaches_[i / group].include(reaches_[i]);
         }
     });
 }
@@ -222,32 +225,27 @@ void CellLists::find_reaches(const IsAsked& is_asked) {
 /// Finds which cells are asked for, and which triangles matter therefore: where few are, most need
 /// not be followed from row to row.
 void CellLists::ask(const Cells& cells) {
+    const auto rows_of = [&](const std::array<ScreenVertex, 3>& corners) {
+        const auto [low, high] =
+            std::minmax({corners[0].point.y, corners[1].point.y, corners[2].point.y});
+        return Reach{cells.cell_of(low), cells.cell_of(high)};
+    };
     if (!asked_)
-        return find_reaches([](const auto&) { return true; });
+        return find_reaches(rows_of);
     asked_cells_ = asked_(cells);
-    // Row by row, how many of the row are asked for before each of its cells, and before its end.
-    const auto per_side = static_cast<std::size_t>(cells.per_side);
-    std::vector<std::uint32_t> before(per_side * (per_side + 1));
-    for (std::size_t row = 0; row < per_side; ++row)
-        for (std::size_t column = 0; column < per_side; ++column) {
-            const std::size_t place = row * (per_side + 1) + column;
-            before[place + 1] =
-                before[place] + (asked_cells_[row * per_side + column] == not_asked ? 0 : 1);
-        }
+    const CellsInRows asked_in_rows(cells, asked_cells_);
     find_reaches([&](const std::array<ScreenVertex, 3>& corners) {
         const auto [left, right] =
             std::minmax({corners[0].point.x, corners[1].point.x, corners[2].point.x});
-        const auto [low, high] =
-            std::minmax({corners[0].point.y, corners[1].point.y, corners[2].point.y});
         // RowsOfCells may tell what is a step beside the triangle.
-        const auto first = static_cast<std::size_t>(cells.cell_of(std::max(left - 2, 0)));
-        const auto last = static_cast<std::size_t>(cells.cell_of(right + 2));
-        for (std::int32_t row = cells.cell_of(low); row <= cells.cell_of(high); ++row) {
-            const std::size_t begin = static_cast<std::size_t>(row) * (per_side + 1);
-            if (before[begin + first] != before[begin + last + 1])
-                return true;
-        }
-        return false;
+        const Columns columns = {cells.cell_of(std::max(left - 2, 0)), cells.cell_of(right + 2)};
+        const auto is_asked = [&](std::int32_t row) { return asked_in_rows.are_any(columns, row); };
+        Reach reach = rows_of(corners);
+        while (reach.first <= reach.last && !is_asked(reach.first))
+            ++reach.first;
+        while (reach.first < reach.last && !is_asked(reach.last))
+            --reach.last;
+        return reach;
     });
 }
 
@@ -380,6 +378,16 @@ Cells CellLists::cells() {
 }
 
 } // namespace
+
+CellsInRows::CellsInRows(const Cells& cells, const std::vector<std::uint8_t>& is_marked)
+    : row_size_(static_cast<std::size_t>(cells.per_side) + 1)
+    , before_(row_size_ * (row_size_ - 1)) {
+    for (std::size_t cell = 0, place = 0; cell < is_marked.size(); ++cell, ++place) {
+        if ((place + 1) % row_size_ == 0)
+            ++place;
+        before_[place + 1] = before_[place] + (is_marked[cell] == 0 ? 0 : 1);
+    }
+}
 
 RowsOfCells::RowsOfCells(
     const Cells& cells,

@@ -51,6 +51,22 @@ struct Columns {
     std::int32_t last = -1;
 };
 
+/// Tells whether any of several cells of a row are marked, with no look at each.
+class CellsInRows {
+public:
+    CellsInRows(const Cells& cells, const std::vector<std::uint8_t>& is_marked);
+
+    bool are_any(Columns columns, std::int32_t row) const {
+        const std::size_t begin = static_cast<std::size_t>(row) * row_size_;
+        return before_[begin + static_cast<std::size_t>(columns.first)]
+            != before_[begin + static_cast<std::size_t>(columns.last) + 1];
+    }
+
+private:
+    std::size_t row_size_;
+    std::vector<std::uint32_t> before_; ///< how many of the row are, before each, and in all
+};
+
 /// What of a row of cells a triangle touches, and what it covers altogether.
 struct RowOfCells {
     Columns touched;
