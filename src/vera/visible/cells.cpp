@@ -147,8 +147,10 @@ CellLists::CellLists(
 template <typename DoesMatter, typename Visit>
 void CellLists::for_each_row(
     const Cells& cells, const DoesMatter& does_matter, const Visit& visit) const {
+    // A triangle is begun anew in each band: not in every few rows.
     constexpr std::int32_t most_bands = 64;
-    const std::int32_t bands = std::min(cells.per_side, most_bands);
+    constexpr std::int32_t least_rows = 16;
+    const std::int32_t bands = std::clamp(cells.per_side / least_rows, 1, most_bands);
     const std::int32_t height = cells.per_side / bands;
     parallel_ranges(static_cast<std::size_t>(bands), 1, [&](std::size_t number, std::size_t) {
         const std::int32_t first = static_cast<std::int32_t>(number) * height;
