@@ -62,6 +62,26 @@ TEST(Cells, ThatAreAskedForHoldAndAreBlockedByTheSameAsIfAllWere) {
     EXPECT_GT(entries, 1000U);
 }
 
+TEST(CellsInRows, AreThereWhereOneOfThemIsMarked) {
+    std::mt19937_64 random(3);
+    for (const std::int32_t per_side : {1, 2, 8}) {
+        Cells cells;
+        cells.per_side = per_side;
+        std::vector<std::uint8_t> is_marked(cells.number(0, per_side));
+        for (std::uint8_t& mark : is_marked)
+            mark = random() % 4 == 0 ? 2 : 0;
+        const CellsInRows in_rows(cells, is_marked);
+        for (std::int32_t row = 0; row < per_side; ++row)
+            for (std::int32_t first = 0; first < per_side; ++first) {
+                bool is_any = false;
+                for (std::int32_t last = first; last < per_side; ++last) {
+                    is_any = is_any || is_marked[cells.number(last, row)] != 0;
+                    EXPECT_EQ(in_rows.are_any({first, last}, row), is_any);
+                }
+            }
+    }
+}
+
 TEST(Cells, AreBlockedByNothingNearerThanWhatCoversThem) {
     std::size_t blocked = 0;
     for (std::uint64_t seed = 0; seed < 40; ++seed) {
