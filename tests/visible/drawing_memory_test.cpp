@@ -100,7 +100,8 @@ TEST(DrawingMemory, TheRasterTakesWhatIsForetold) {
             raster_bytes(counts_of(scene)) + piece_bytes(static_cast<double>(pieces));
         constexpr double few = 0x1p21; // lists that grow, and cells of many entries
         EXPECT_GE(told, taken - few) << family.name;
-        EXPECT_LE(told, taken * 1.5 + few / 4) << family.name;
+        // Packed parts of pieces take less than is foretold, most of all of small triangles.
+        EXPECT_LE(told, taken * 2 + few / 4) << family.name;
     }
 }
 
