@@ -13,13 +13,13 @@ void give_back_freed_blocks() {
 #ifdef __GLIBC__
     constexpr int mebibyte = 1 << 20;
     mallopt(M_MMAP_THRESHOLD, 2 * mebibyte); // which ends that it grows
-    mallopt(M_TRIM_THRESHOLD, 16 * mebibyte);
+    mallopt(M_TRIM_THRESHOLD, 4 * mebibyte);
 #endif
 }
 
 void give_back_freed_memory() {
 #ifdef __GLIBC__
-    constexpr std::size_t little = std::size_t{8} << 20U;
+    constexpr std::size_t little = std::size_t{2} << 20U;
     if (mallinfo2().fordblks > little)
         malloc_trim(0);
 #endif

@@ -13,13 +13,13 @@ void free_room(std::vector<T>& vector) {
 
 /// From now on the whole process gives back to the system each block of 2 MiB or more as soon as it
 /// is freed. (The C library of GNU, if left alone, comes to keep blocks of up to 32 MiB, between
-/// others that are in use, for the next ones that fit.) What is smaller, and up to 16 MiB behind
-/// the last block in use, is kept for the next ones: to ask the system for it anew takes longer
-/// than to fill it.
+/// others that are in use, for the next ones that fit.) What is smaller, and up to 4 MiB behind the
+/// last block in use, is kept for the next ones: to ask the system for it anew takes longer than to
+/// fill it.
 void give_back_freed_blocks();
 
 /// Gives what was freed, but is kept to be used again, back to the system where it is more than
-/// 8 MiB. For the moment after much was freed in small blocks, and before much is needed in large
+/// 2 MiB. For the moment after much was freed in small blocks, and before much is needed in large
 /// ones.
 void give_back_freed_memory();
 
