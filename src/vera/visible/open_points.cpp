@@ -10,7 +10,6 @@
 #include <cstdint>
 #include <span>
 #include <tuple>
-#include <utility>
 
 namespace vera {
 
@@ -34,7 +33,9 @@ all_open_points(const ScreenScene& scene, const VisiblePieces& pieces, double wi
     std::vector<OpenPoint> open;
     // Half of the points at a time, as all pieces are there.
     const std::size_t count = pieces.points.size();
-    for (const auto& [first, last] : {std::pair{std::size_t{0}, count / 2}, {count / 2, count}}) {
+    for (const bool is_later_half : {false, true}) {
+        const std::size_t first = is_later_half ? count / 2 : 0;
+        const std::size_t last = is_later_half ? count : count / 2;
         std::vector<std::uint64_t> sums(last - first);
         const auto add = [&](std::size_t point, std::uint64_t difference) {
             if (point >= first && point < last)
