@@ -16,6 +16,18 @@ TEST(Program, TellsItsVersion) {
     EXPECT_EQ(run.err, "");
 }
 
+TEST(Program, LoadsNoMoreWhenItsThreadsStart) {
+    const ScratchFolder folder;
+    folder.write("scene.vera", small_scene);
+    const ProgramRun run = run_vera(
+        folder, "render scene.vera --raster 32x32 --threads 2 -o a.png -q", "LD_DEBUG=files");
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    if (run.err.find("calling init:") == std::string::npos)
+        GTEST_SKIP() << "this system's loader does not tell what it loads";
+    EXPECT_EQ(run.err.find("file=libtbbmalloc"), std::string::npos);
+    EXPECT_EQ(run.err.find("file=libirml"), std::string::npos);
+}
+
 TEST(Program, HelpsOnItselfAndEveryCommandWithExamples) {
     const ScratchFolder folder;
     for (const char* arguments :

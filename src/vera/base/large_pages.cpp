@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/base/large_pages.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstdint>
 #include <cstdlib>
+#include <thread>
 
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -79,6 +81,10 @@ void begin_heap_in_large_pages() noexcept {
     if (unused_too != nullptr)
         prefer_large_pages(unused_too, room, Written::nothing);
     mallopt(M_TOP_PAD, 2 * static_cast<int>(large_page)); // or it would grow by small pages
+    // Other heaps, of threads that found this one taken, would be in small pages.
+    constexpr unsigned threads_for_a_heap = 4;
+    const unsigned heaps = std::thread::hardware_concurrency() / threads_for_a_heap;
+    mallopt(M_ARENA_MAX, static_cast<int>(std::max(heaps, 1U)));
 #endif
 }
 
