@@ -7,20 +7,18 @@
 #include "vera/base/version.h"
 #include "vera/drawing/drawing_file.h"
 #include "vera/render/exposure.h"
-#include "vera/scene/item_names.h"
-#include "vera/scene/surface.h"
 #include "vera/visible/draw_scene.h"
-#include "vera/visible/map_check.h"
 
 #include <algorithm>
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "command.h"
+#include "draw_report.h"
+#include "drawing_verification.h"
 #include "interrupt.h"
 #include "line_options.h"
 #include "messages.h"
@@ -33,7 +31,6 @@
 #include "transparency_warning.h"
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace vera {
 
@@ -58,15 +55,6 @@ struct Request {
     bool shadow_lines = false;
     double verify = 0; ///< points; 0: not at all
     bool json = false;
-};
-
-struct Report {
-    double read_seconds = 0;
-    double draw_seconds = 0;
-    double verify_seconds = 0;
-    MapCheck check;
-    double write_seconds = 0;
-    std::size_t bytes = 0;
 };
 
 DrawingFormat output_format(const Request& request) {
@@ -135,154 +123,6 @@ void expose_as_picture(PreparedScene& prepared, const Console& console, const Pr
     prepared.settings.ambient = traced.illumination.ambient;
 }
 
-/// "face 7 (sphere, line 5)"
-std::string thing_text(const Scene& scene, std::uint64_t primitive) {
-    if (primitive == no_primitive)
-        return "the background";
-    const PrimitivePath path = path_to(scene, primitive);
-    const Item& item = path.geometry->items[path.element.item];
-    return fmt::format(
-        "face {} ({}{})",
-        primitive + 1,
-        name_of(item.kind),
-        item.line == 0 ? "" : fmt::format(", line {}", item.line));
-}
-
-[[noreturn]] void refuse(const Scene& scene, const MapCheck& check) {
-    const MapDifference& first = *check.first_far;
-    Diagnostic problem;
-    if (!scene.files.empty())
-        problem.place.file = scene.files.front();
-    problem.problem = fmt::format(
-        "the drawing is not what rays see, at {} of {} points: at pixel ({:.3f}, {:.3f}) it shows "
-        "{}{}, and a ray sees {}",
-        check.far,
-        check.points,
-        first.x,
-        first.y,
-        thing_text(scene, first.drawn),
-        first.is_sound ? "" : " and more than that",
-        thing_text(scene, first.traced));
-    problem.remedy = "nothing was written; another --deviation or --raster may help, and a report "
-                     "of this with the scene would";
-    throw InputError({problem});
-}
-
-/// What compares the map with rays at so many points, and lets no drawing be written that differs.
-/// All that is given must outlive it.
-std::function<void(const PrimitiveMap&, const Progress&)> verification(
-    std::size_t points,
-    double deviation,
-    const PreparedScene& prepared,
-    const Console& console,
-    Report& report) {
-    return [=, &prepared, &console, &report](const PrimitiveMap& map, const Progress& progress) {
-        Stopwatch watch;
-        StageProgress stages(progress, 2);
-        const MapCheckSettings settings = {
-            points,
-            static_cast<double>(prepared.settings.width),
-            static_cast<double>(prepared.settings.height),
-            deviation};
-        const auto index = scene_index(prepared.scene, {}, stages.next(1), console.cancel);
-        report.check = check_map(
-            map,
-            prepared.scene,
-            prepared.camera,
-            *index,
-            settings,
-            stages.next(1),
-            &console.cancel);
-        report.verify_seconds = watch.lap();
-        if (report.check.far > 0)
-            refuse(prepared.scene, report.check);
-    };
-}
-
-void print_check(const MapCheck& check, const Console& console) {
-    if (check.near == 0)
-        return print_note(
-            fmt::format(
-                "verified: at all {} points the drawing shows what a ray sees", check.points),
-            console);
-    print_note(
-        fmt::format(
-            "verified: at {} of {} points the drawing shows what a ray sees; the other {} are "
-            "within 1/64 pixel, or the deviation, of it",
-            check.points - check.near,
-            check.points,
-            check.near),
-        console);
-}
-
-void print_notes(const DrawnScene& drawn, const Console& console) {
-    if (drawn.cut_nearness > 0)
-        print_note(
-            fmt::format(
-                "what is nearer to the view point than {:.3g} of the image plane's distance is not "
-                "drawn: the rest would be too coarse",
-                drawn.cut_nearness),
-            console);
-    if (drawn.shadows.cut_nearness > 0)
-        print_note(
-            fmt::format(
-                "what is nearer to a light than {:.3g} throws no shadow: the others would be too "
-                "coarse",
-                drawn.shadows.cut_nearness),
-            console);
-    if (drawn.shadows.light_step > 0)
-        print_note(
-            fmt::format(
-                "what is smaller than {:.3g} may throw no shadow, or one with holes: what is seen "
-                "of the scene reaches too far",
-                drawn.shadows.light_step),
-            console);
-    if (drawn.lights_without_shadows > 0)
-        print_note(
-            fmt::format(
-                "shadows are drawn of the first {} lights; the last {} shine through everything",
-                most_lights_of_a_set,
-                drawn.lights_without_shadows),
-            console);
-    if (drawn.penetrating > 0)
-        print_note(
-            fmt::format(
-                "{} pairs of facets still pass through each other after {} rounds of cutting: "
-                "outlines there may be wrong",
-                drawn.penetrating,
-                drawn.cut_rounds),
-            console);
-    // As far as --verify lets a border be off.
-    constexpr double most_join = 1.0 / 64;
-    if (drawn.longest_join > most_join)
-        print_note(
-            fmt::format(
-                "borders that do not close are joined by straight ways of up to {:.3g} pixels: "
-                "faces there may be wrong, as --verify tells",
-                drawn.longest_join),
-            console);
-}
-
-nlohmann::ordered_json as_json(const Report& report, const DrawnScene& drawn) {
-    nlohmann::ordered_json json = {
-        {"version", 1},
-        {"facets", drawn.facets},
-        {"visible_faces", drawn.visible_faces},
-        {"cut_rounds", drawn.cut_rounds},
-        {"penetrating", drawn.penetrating},
-        {"partly_lit", drawn.shadows.partly_lit},
-        {"shadows", drawn.shadows.shadows},
-        {"bytes", report.bytes},
-        {"seconds",
-         {{"read", report.read_seconds},
-          {"draw", report.draw_seconds},
-          {"verify", report.verify_seconds},
-          {"write", report.write_seconds}}}};
-    if (report.check.points > 0)
-        json["verified"] = {{"points", report.check.points}, {"near", report.check.near}};
-    return json;
-}
-
 /// Draws the scene and writes the drawing; the caller commits the file. Throws Cancelled.
 DrawnScene draw_and_write(
     PreparedScene& prepared,
@@ -291,7 +131,7 @@ DrawnScene draw_and_write(
     const Request& request,
     OutputFile& file,
     const Console& console,
-    Report& report) {
+    DrawReport& report) {
     const CancellableWork work;
     Stopwatch watch;
     const bool is_exposed = prepared.settings.exposure.value_or(0) > 0 && has_fills(settings.style)
@@ -372,7 +212,7 @@ void draw(const Request& request, Console& console) {
             "--deviation makes fewer facets)",
             request.time_limit),
         console);
-    Report report;
+    DrawReport report;
     Stopwatch watch;
 
     PreparedScene prepared = prepared_scene(request.scene);
