@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "vera/base/large_pages.h"
 #include "vera/base/output_file.h"
 #include "vera/drawing/drawing_file.h"
 #include "vera/image/image_file.h"
@@ -310,6 +311,8 @@ void render(const Request& request, const Console& console) {
         throw CommandLineError("--quality is for JPEG; write a .jpg, or leave it out");
     const double jpeg_quality =
         number_of("--quality", request.jpeg_quality.value_or(jpeg_quality_by_default), 1, 100);
+    if (request.strategy.kind == "rays")
+        share_heap_among_threads();
     const ThreadLimit limit = thread_limit(request.threads);
     check_options(request.strategy, request.index, request.scene.picture);
     check_layers(request);

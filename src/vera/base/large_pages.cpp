@@ -81,7 +81,11 @@ void begin_heap_in_large_pages() noexcept {
     if (unused_too != nullptr)
         prefer_large_pages(unused_too, room, Written::nothing);
     mallopt(M_TOP_PAD, 2 * static_cast<int>(large_page)); // or it would grow by small pages
-    // Other heaps, of threads that found this one taken, would be in small pages.
+#endif
+}
+
+void share_heap_among_threads() noexcept {
+#ifdef __GLIBC__
     constexpr unsigned threads_for_a_heap = 4;
     const unsigned heaps = std::thread::hardware_concurrency() / threads_for_a_heap;
     mallopt(M_ARENA_MAX, static_cast<int>(std::max(heaps, 1U)));

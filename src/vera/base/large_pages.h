@@ -21,8 +21,13 @@ void prefer_large_pages(const void* first, std::size_t bytes, Written written) n
 /// they are freed. Nothing is done where the C library is not GNU's.
 void begin_heap_in_large_pages() noexcept;
 
-/// The same for a block that malloc() has just made, and for what the heap grew by since it was
-/// last asked: for a program's operator new. Small blocks are passed over.
+/// For threads that ask for few blocks, before they start: a thread that finds the heap taken waits
+/// for it, where it would otherwise begin one of its own, in small pages. Four threads share one at
+/// least.
+void share_heap_among_threads() noexcept;
+
+/// Asks for large pages for a block that malloc() has just made, and for what the heap grew by
+/// since it was last asked: for a program's operator new. Small blocks are passed over.
 void prefer_large_pages_for_block(const void* block, std::size_t bytes) noexcept;
 
 } // namespace vera
