@@ -111,25 +111,11 @@ void count_cells(const CellRaster& raster, CellCounts& counts) {
             raster, squares, raster.edges.edges[i], nearness[i], [&] { ++counts.edge_cells; });
 }
 
-/// Where no shadow is near, there is none.
-void set_unlit(const CellRaster& raster, PackedPieces& part) {
-    const ScreenScene& scene = raster.scene;
-    const auto unlit = [&](std::uint32_t triangle) {
-        return triangle == no_triangle ? 0 : scene.unlit_of(scene.triangles[triangle].source);
-    };
-    part.unlit = {};
-    if (raster.may_be_unlit())
-        part.unlit = PackedRows<2>(part.size(), [&](std::size_t i) {
-            const VisiblePiece piece = part.piece(i);
-            return PackedRows<2>::Row{unlit(piece.left), unlit(piece.right)};
-        });
-}
-
 /// Takes out of the parts what penetrates.
 std::vector<std::pair<std::uint32_t, std::uint32_t>>
-take_penetrating(std::vector<PackedPieces>& parts) {
+take_penetrating(std::vector<SeenPart>& parts) {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> all;
-    for (PackedPieces& part : parts) {
+    for (SeenPart& part : parts) {
         all.insert(all.end(), part.penetrating.begin(), part.penetrating.end());
         free_room(part.penetrating);
     }
@@ -138,23 +124,23 @@ take_penetrating(std::vector<PackedPieces>& parts) {
 
 } // namespace
 
-SeenParts parted(VisiblePieces list) {
+SeenPieces parted(VisiblePieces list) {
     return {parts_of(list), std::move(list.penetrating)};
 }
 
-VisiblePieces joined(SeenParts seen) {
+VisiblePieces joined(SeenPieces seen) {
     VisiblePieces list = joined(std::move(seen.parts));
     list.penetrating = std::move(seen.penetrating);
     return list;
 }
 
-SeenParts cell_raster_parts(
+SeenPieces cell_raster_parts(
     const ScreenScene& scene,
     const Progress& progress,
     const CancelFlag* cancel,
     const ExpectPieces& expect,
     CellCounts* counts) {
-    SeenParts seen;
+    SeenPieces seen;
     CellRaster raster = raster_of(scene, {}, progress, cancel);
     CellCounts counted;
     if (counts != nullptr)
@@ -176,20 +162,21 @@ SeenParts cell_raster_parts(
     return seen;
 }
 
-SeenParts cell_raster_parts_after(
+SeenPieces cell_raster_parts_after(
     const SceneChange& change,
     std::span<const PackedPoint> open,
-    SeenParts before,
+    SeenPieces before,
     const ScreenScene& scene,
     const Progress& progress,
     const CancelFlag* cancel,
     const ExpectPieces& expect) {
-    std::vector<PackedPieces> parts;
+    SeenPieces seen;
     {
+        PiecesOfParts kept;
         const AskedOfRaster asked = [&](CellRaster& of, const Cells& cells) {
             of.is_near_change = edges_in(cells_of_change(change, of, cells), of, cells);
             // As soon as that is known: what comes takes the room of what is not kept.
-            keep_pieces(of, before.parts);
+            kept = kept_pieces(of, std::move(before.parts));
             std::vector<std::uint8_t> asked_cells = cells_along(of.is_near_change, of, cells);
             for_each_cell_of_points(open, cells, [&](std::size_t cell) {
                 if (asked_cells[cell] != not_asked)
@@ -199,23 +186,22 @@ SeenParts cell_raster_parts_after(
         };
         CellRaster raster = raster_of(scene, asked, progress, cancel);
         free_room(raster.cells.blocked);
-        std::size_t kept = 0;
-        for (PackedPieces& part : before.parts) {
-            kept += part.size();
-            set_unlit(raster, part);
-        }
-        check_memory(raster, kept, expect, cancel);
+        std::size_t kept_count = 0;
+        for (const std::vector<SeenPart>& of_part : kept)
+            for (const SeenPart& some : of_part)
+                kept_count += some.size();
+        check_memory(raster, kept_count, expect, cancel);
         follow_edges(
             raster,
             0,
             raster.edges.edges.size(),
             progress_between(progress, part_of_preparation, 1),
             cancel,
-            parts);
+            seen.parts,
+            nullptr,
+            std::move(kept));
     }
-    SeenParts seen;
-    seen.penetrating = take_penetrating(parts);
-    seen.parts = merged(std::move(before.parts), std::move(parts));
+    seen.penetrating = take_penetrating(seen.parts);
     std::vector<std::uint8_t> is_changed(scene.triangles.size());
     for (const std::uint32_t triangle : change.triangles)
         is_changed[triangle] = 1;

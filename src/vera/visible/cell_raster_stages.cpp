@@ -157,9 +157,10 @@ CellRaster raster_of(
     };
     next_stage();
     require_raster_memory(scene);
-    CellRaster raster = {scene, slopes_of(scene), {}, {}, {}, {}, {}, 0, {}, {}, {}, {}, {}};
+    CellRaster raster = {scene, slopes_of(scene), {}, {}, {}, {}, {}, 0, {}, {}, {}, {}, {}, {}};
     next_stage();
     raster.edges = screen_edges(scene);
+    raster.storage = storage_of(raster.edges.edges.size());
     next_stage();
     std::vector<EdgeNeighbours> neighbours = edge_neighbours(scene, raster.edges);
     if (std::ranges::any_of(scene.triangles, &ScreenTriangle::is_shadow)) {
@@ -302,25 +303,90 @@ ExpectedPieces expected_pieces(
     return all;
 }
 
+namespace {
+
+constexpr std::size_t edges_of_part = 4096; // that are followed at a time
+
+/// Where no shadow is near, there is none.
+void set_unlit(const CellRaster& raster, VisiblePieces& list) {
+    const ScreenScene& scene = raster.scene;
+    const auto unlit = [&](std::uint32_t triangle) {
+        return triangle == no_triangle ? 0 : scene.unlit_of(scene.triangles[triangle].source);
+    };
+    list.unlit.clear();
+    if (raster.may_be_unlit())
+        for (const VisiblePiece& piece : list.pieces)
+            list.unlit.push_back({unlit(piece.left), unlit(piece.right)});
+}
+
+} // namespace
+
+PiecesOfParts kept_pieces(const CellRaster& raster, std::vector<SeenPart> before) {
+    const std::vector<ScreenEdges::Edge>& edges = raster.edges.edges;
+
+    struct Kept {
+        std::size_t part = 0; ///< of the edges
+        SeenPart pieces;
+    };
+
+    std::vector<std::vector<Kept>> kept(before.size());
+    parallel_ranges(before.size(), 1, [&](std::size_t number, std::size_t) {
+        VisiblePieces list = before[number].take();
+        set_unlit(raster, list);
+        const auto is_kept = [&](std::size_t edge, std::size_t i) {
+            return edge < edges.size() && edges[edge] == list.pieces[i].edge
+                && raster.is_near_change[edge] == 0;
+        };
+        std::size_t edge = list.pieces.empty()
+            ? 0
+            : static_cast<std::size_t>(
+                std::lower_bound(edges.begin(), edges.end(), list.pieces.front().edge)
+                - edges.begin());
+        for (std::size_t i = 0; i < list.pieces.size();) {
+            const std::size_t part = edge / edges_of_part;
+            const std::size_t last = std::min(edges.size(), (part + 1) * edges_of_part);
+            VisiblePieces of_part;
+            PieceCopy copy(list, of_part);
+            for (; i < list.pieces.size(); ++i) {
+                while (edge < last && edges[edge] < list.pieces[i].edge)
+                    ++edge;
+                if (edge == last && last < edges.size())
+                    break;
+                if (is_kept(edge, i))
+                    copy.add(i);
+            }
+            if (!of_part.pieces.empty())
+                kept[number].push_back({part, SeenPart(std::move(of_part), raster.storage)});
+        }
+    });
+    PiecesOfParts result((edges.size() + edges_of_part - 1) / edges_of_part);
+    for (std::vector<Kept>& of_part : kept)
+        for (Kept& some : of_part)
+            result[some.part].push_back(std::move(some.pieces));
+    return result;
+}
+
 void follow_edges(
     const CellRaster& raster,
     std::size_t first,
     std::size_t last,
     const Progress& progress,
     const CancelFlag* cancel,
-    std::vector<PackedPieces>& parts,
-    CellCounts* counts) {
-    constexpr std::size_t part = 4096; // edges
+    std::vector<SeenPart>& parts,
+    CellCounts* counts,
+    PiecesOfParts kept) {
+    constexpr std::size_t part = edges_of_part;
+    kept.resize((last - first + part - 1) / part);
     const std::size_t before = parts.size();
-    parts.resize(before + (last - first + part - 1) / part);
+    parts.resize(before + kept.size());
     PartSweeps sweeps(raster);
     std::mutex mutex;
     std::size_t done = before;
     parallel_ranges(parts.size() - before, 1, [&](std::size_t from, std::size_t to) {
         std::unique_ptr<PartSweep> sweep = sweeps.take();
         for (std::size_t i = from; i < to; ++i)
-            parts[before + i] =
-                sweep->followed(first + i * part, std::min(last, first + (i + 1) * part), cancel);
+            parts[before + i] = sweep->followed(
+                first + i * part, std::min(last, first + (i + 1) * part), kept[i], cancel);
         sweeps.give_back(std::move(sweep));
         const std::lock_guard lock(mutex);
         done += to - from;
@@ -330,27 +396,6 @@ void follow_edges(
     });
     if (counts != nullptr)
         counts->add_followed(sweeps.counts());
-}
-
-void keep_pieces(const CellRaster& raster, std::vector<PackedPieces>& parts) {
-    const std::vector<ScreenEdges::Edge>& edges = raster.edges.edges;
-    parallel_ranges(parts.size(), 1, [&](std::size_t number, std::size_t) {
-        PackedPieces& part = parts[number];
-        VisiblePieces kept;
-        PieceCopy copy(part, kept);
-        for (std::size_t i = 0, edge = 0; i < part.size(); ++i) {
-            const ScreenEdges::Edge of = part.edge(i);
-            if (i == 0)
-                edge = static_cast<std::size_t>(
-                    std::lower_bound(edges.begin(), edges.end(), of) - edges.begin());
-            while (edge < edges.size() && edges[edge] < of)
-                ++edge;
-            if (edge < edges.size() && edges[edge] == of && raster.is_near_change[edge] == 0)
-                copy.add(i);
-        }
-        if (kept.pieces.size() < part.size())
-            part = PackedPieces(kept);
-    });
 }
 
 void sort_pairs(std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs) {

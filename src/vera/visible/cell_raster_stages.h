@@ -7,7 +7,7 @@
 #include "vera/visible/cell_raster.h"
 #include "vera/visible/edge_sweep.h"
 #include "vera/visible/hidden_squares.h"
-#include "vera/visible/packed_pieces.h"
+#include "vera/visible/seen_parts.h"
 #include "vera/visible/sheets.h"
 
 #include <array>
@@ -60,19 +60,25 @@ struct ExpectedPieces {
 ExpectedPieces expected_pieces(
     const CellRaster& raster, std::size_t first, std::size_t last, const CancelFlag* cancel);
 
+/// Of each part of all edges that is followed at a time, pieces of its edges.
+using PiecesOfParts = std::vector<std::vector<SeenPart>>;
+
+/// Those of the pieces that are of edges that are there still, and far from the change; in the
+/// light that reaches their sources where there is no shadow.
+PiecesOfParts kept_pieces(const CellRaster& raster, std::vector<SeenPart> before);
+
 /// Follows the edges from first to before last that are near what was changed, or all, and adds
-/// what is found, in parts, one behind the other.
+/// what is found, in parts, one behind the other. Kept pieces, if there are any, are taken in by
+/// their edges: then all edges are to be followed.
 void follow_edges(
     const CellRaster& raster,
     std::size_t first,
     std::size_t last,
     const Progress& progress,
     const CancelFlag* cancel,
-    std::vector<PackedPieces>& parts,
-    CellCounts* counts = nullptr);
-
-/// Leaves those pieces that are of edges that are there still, and far from the change.
-void keep_pieces(const CellRaster& raster, std::vector<PackedPieces>& parts);
+    std::vector<SeenPart>& parts,
+    CellCounts* counts = nullptr,
+    PiecesOfParts kept = {});
 
 /// Of each edge from that one on, how near it is in the planes of all triangles, from the first one
 /// on, that have it.
@@ -109,26 +115,20 @@ std::uint8_t hidden_eighths(
 
 void sort_pairs(std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs);
 
-/// What is seen of a scene, in parts: what a round of cutting begins and ends with.
-struct SeenParts {
-    std::vector<PackedPieces> parts; ///< by the edges of their pieces
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> penetrating; ///< as of VisiblePieces
-};
-
-SeenParts parted(VisiblePieces list);
-VisiblePieces joined(SeenParts seen);
+SeenPieces parted(VisiblePieces list);
+VisiblePieces joined(SeenPieces seen);
 
 /// As cell_raster() and cell_raster_after().
-SeenParts cell_raster_parts(
+SeenPieces cell_raster_parts(
     const ScreenScene& scene,
     const Progress& progress,
     const CancelFlag* cancel,
     const ExpectPieces& expect,
     CellCounts* counts = nullptr);
-SeenParts cell_raster_parts_after(
+SeenPieces cell_raster_parts_after(
     const SceneChange& change,
     std::span<const PackedPoint> open,
-    SeenParts before,
+    SeenPieces before,
     const ScreenScene& scene,
     const Progress& progress,
     const CancelFlag* cancel,

@@ -269,13 +269,13 @@ void EdgeSweep::follow(std::uint32_t edge, VisiblePieces& result) {
         const bool continues = std::exchange(is_end_of_piece, is_piece);
         if (!is_piece)
             return;
-        const auto number = static_cast<std::uint32_t>(result.points.size());
-        const PackedPoint from = continues ? result.points.back() : point(open.first);
-        result.points.push_back(from);
+        if (!continues)
+            result.points.push_back(point(open.first));
         result.points.push_back(point(last));
+        const auto end = static_cast<std::uint32_t>(result.points.size() - 1);
         result.pieces.push_back(
-            {number,
-             number + 1,
+            {end - 1,
+             end,
              raster_.edges.edges[edge],
              open.left.triangle,
              open.right.triangle});

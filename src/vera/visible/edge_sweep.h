@@ -5,6 +5,7 @@
 #include "vera/visible/cell_raster.h"
 #include "vera/visible/cells.h"
 #include "vera/visible/seen_beside.h"
+#include "vera/visible/seen_parts.h"
 #include "vera/visible/shadow_cells.h"
 #include "vera/visible/shadows_beside.h"
 
@@ -36,6 +37,8 @@ struct CellRaster {
     /// both sides.
     std::vector<std::uint8_t> within_source;
     std::vector<std::uint8_t> has_one_source; ///< of cells, whether the surfaces are parts of one
+
+    PieceStorage storage = PieceStorage::plain; ///< of what is seen
 
     /// Whether the edge is one between two parts of one shadow.
     bool is_inner(std::uint32_t edge) const {

@@ -56,13 +56,12 @@ void LitFacets::add(const ScreenScene& view, const Progress& progress, const Can
         const int state = here[facet] | seen | (is_partly_hidden ? hidden : 0);
         here[facet] = static_cast<std::uint8_t>(state);
     };
-    const auto add_states = [&](const PackedPieces& part) {
-        for (std::size_t i = 0; i < part.size(); ++i) {
-            const VisiblePiece piece = part.piece(i);
+    const auto add_states = [&](SeenPart& part) {
+        const VisiblePieces list = part.take();
+        for (const VisiblePiece& piece : list.pieces)
             for (const std::uint32_t triangle : {piece.left, piece.right})
                 if (triangle != no_triangle)
                     add_state(view.triangles[triangle].source, goes_on(triangle, piece));
-        }
         for (const auto& [a, b] : part.penetrating)
             for (const std::uint32_t triangle : {a, b})
                 add_state(view.triangles[triangle].source, true);
@@ -74,7 +73,7 @@ void LitFacets::add(const ScreenScene& view, const Progress& progress, const Can
         return part_of_preparation
             + (1 - part_of_preparation) * static_cast<double>(edge) / static_cast<double>(count);
     };
-    std::vector<PackedPieces> parts;
+    std::vector<SeenPart> parts;
     for (std::size_t first = 0, last = 0; first < count; first = last) {
         last = std::min(count, first + at_a_time);
         parts.clear();

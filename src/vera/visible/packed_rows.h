@@ -34,46 +34,48 @@ public:
                 most[column] = std::max(most[column], row[column]);
             }
         }
+        std::size_t bits_of_a_row = 0;
         for (std::size_t column = 0; column < Columns; ++column) {
-            const int width = static_cast<int>(std::bit_width(most[column] - least_[column]));
-            starts_[column] = bits_of_a_row_;
-            masks_[column] = width == 0 ? 0 : ~std::uint64_t{0} >> (word_bits - width);
-            bits_of_a_row_ += static_cast<std::size_t>(width);
+            widths_[column] = static_cast<std::size_t>(std::bit_width(most[column] - least_[column]));
+            bits_of_a_row += widths_[column];
         }
         // One word more, as a number is read from the word in which it begins and the next one.
-        words_.resize(count * bits_of_a_row_ / word_bits + 2);
+        words_.resize(count * bits_of_a_row / word_bits + 2);
+        std::size_t bit = 0;
         for (std::size_t i = 0; i < count; ++i) {
             const Row row = row_at(i);
-            for (std::size_t column = 0; column < Columns; ++column)
-                put(i * bits_of_a_row_ + starts_[column], row[column] - least_[column]);
+            for (std::size_t column = 0; column < Columns; ++column) {
+                put(bit, row[column] - least_[column]);
+                bit += widths_[column];
+            }
         }
     }
 
     std::size_t size() const { return count_; }
 
-    bool empty() const { return count_ == 0; }
-
-    std::uint64_t at(std::size_t i, std::size_t column) const {
-        const std::size_t bit = i * bits_of_a_row_ + starts_[column];
-        const std::size_t shift = bit % word_bits;
-        const std::uint64_t* words = words_.data() + bit / word_bits;
-        // The next word is shifted in two steps, as by all of its bits it cannot be.
-        const std::uint64_t found = words[0] >> shift | words[1] << 1U << (word_bits - 1 - shift);
-        return least_[column] + (found & masks_[column]);
-    }
-
-    Row operator[](std::size_t i) const {
-        Row row;
+    /// Calls visit(row) for all rows, one after the other.
+    template <typename Visit>
+    void for_each(const Visit& visit) const {
+        Row masks = {};
         for (std::size_t column = 0; column < Columns; ++column)
-            row[column] = at(i, column);
-        return row;
+            masks[column] =
+                widths_[column] == 0 ? 0 : ~std::uint64_t{0} >> (word_bits - widths_[column]);
+        std::size_t bit = 0;
+        for (std::size_t i = 0; i < count_; ++i) {
+            Row row;
+            for (std::size_t column = 0; column < Columns; ++column) {
+                row[column] = least_[column] + (bits_from(bit) & masks[column]);
+                bit += widths_[column];
+            }
+            visit(row);
+        }
     }
 
     /// Bytes that it takes.
     std::size_t room() const { return words_.capacity() * sizeof(std::uint64_t); }
 
 private:
-    static constexpr int word_bits = 64;
+    static constexpr std::size_t word_bits = 64;
 
     void put(std::size_t bit, std::uint64_t number) {
         const std::size_t shift = bit % word_bits;
@@ -81,11 +83,16 @@ private:
         words_[bit / word_bits + 1] |= number >> 1U >> (word_bits - 1 - shift);
     }
 
+    std::uint64_t bits_from(std::size_t bit) const {
+        const std::size_t shift = bit % word_bits;
+        const std::uint64_t* words = words_.data() + bit / word_bits;
+        // The next word is shifted in two steps, as by all of its bits it cannot be.
+        return words[0] >> shift | words[1] << 1U << (word_bits - 1 - shift);
+    }
+
     std::size_t count_ = 0;
-    std::size_t bits_of_a_row_ = 0;
     Row least_ = {};
-    Row masks_ = {};
-    std::array<std::size_t, Columns> starts_ = {}; ///< bits of a row
+    std::array<std::size_t, Columns> widths_ = {}; ///< bits
     std::vector<std::uint64_t> words_;
 };
 

@@ -20,21 +20,45 @@ const VisiblePieces& PartSweep::followed(std::uint32_t edge) {
     return found_;
 }
 
-PackedPieces PartSweep::followed(std::size_t first, std::size_t last, const CancelFlag* cancel) {
+SeenPart PartSweep::followed(
+    std::size_t first, std::size_t last, std::span<SeenPart> kept, const CancelFlag* cancel) {
     clear();
-    for (std::size_t i = first; i < last; ++i) {
+    const std::vector<ScreenEdges::Edge>& edges = raster_.edges.edges;
+    std::size_t next = first;
+    const auto follow_next = [&] {
         stop_if_raised(cancel); // one edge may be compared with all triangles
-        if (raster_.is_followed(i))
-            sweep_.follow(static_cast<std::uint32_t>(i), found_);
+        if (raster_.is_followed(next))
+            sweep_.follow(static_cast<std::uint32_t>(next), found_);
+        ++next;
+    };
+    for (SeenPart& part : kept) {
+        const VisiblePieces list = part.take();
+        PieceCopy copy(list, found_);
+        for (std::size_t i = 0; i < list.pieces.size(); ++i) {
+            while (next < last && edges[next] < list.pieces[i].edge)
+                follow_next();
+            copy.add(i);
+        }
     }
+    while (next < last)
+        follow_next();
+    if (raster_.storage == PieceStorage::packed)
+        number_points();
+    return {found_, raster_.storage};
+}
+
+/// Leaves each point of what was found once.
+void PartSweep::number_points() {
     points_.clear();
     numbers_.start(found_.points.size());
+    number_of_.clear();
+    for (const PackedPoint& point : found_.points)
+        number_of_.push_back(numbers_.number(point));
     for (VisiblePiece& piece : found_.pieces) {
-        piece.from = numbers_.number(found_.points[piece.from]);
-        piece.to = numbers_.number(found_.points[piece.to]);
+        piece.from = number_of_[piece.from];
+        piece.to = number_of_[piece.to];
     }
     std::swap(found_.points, points_);
-    return PackedPieces(found_);
 }
 
 std::unique_ptr<PartSweep> PartSweeps::take() {

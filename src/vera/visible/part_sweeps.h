@@ -6,13 +6,14 @@
 #include "vera/visible/cell_counts.h"
 #include "vera/visible/cell_raster.h"
 #include "vera/visible/edge_sweep.h"
-#include "vera/visible/packed_pieces.h"
 #include "vera/visible/point_numbers.h"
+#include "vera/visible/seen_parts.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <vector>
 
 namespace vera {
@@ -25,24 +26,30 @@ public:
         , sweep_(raster)
         , numbers_(points_, 0) {}
 
-    /// What is found of one edge, each piece with points of its own; until another is followed.
+    /// What is found of one edge, until another is followed.
     const VisiblePieces& followed(std::uint32_t edge);
 
-    /// What is found of the edges from first to before last that are near what was changed, each
-    /// point once. Packed, since all parts are there at a time. Throws Cancelled.
-    PackedPieces followed(std::size_t first, std::size_t last, const CancelFlag* cancel);
+    /// What is found of the edges from first to before last that are near what was changed, and the
+    /// kept pieces of others of these edges, which it takes. Throws Cancelled.
+    SeenPart followed(
+        std::size_t first,
+        std::size_t last,
+        std::span<SeenPart> kept,
+        const CancelFlag* cancel);
 
     /// Of all edges that it followed.
     CellCounts counts() const { return sweep_.counts(); }
 
 private:
     void clear();
+    void number_points();
 
     const CellRaster& raster_;
     EdgeSweep sweep_;
     VisiblePieces found_;
     std::vector<PackedPoint> points_; ///< those of found_, each once, in whose place they come
     PointNumbers numbers_;
+    std::vector<std::uint32_t> number_of_; ///< of the points of found_ that are not yet there once
 };
 
 /// Lends one PartSweep to each thread that works.

@@ -227,7 +227,7 @@ WholePieces whole_pieces(
     };
     WholePieces result;
     const Progress first_round = progress_between(progress, 0, done);
-    SeenParts seen = engine == VisibilityEngine::sweep
+    SeenPieces seen = engine == VisibilityEngine::sweep
         ? swept(first_round)
         : cell_raster_parts(scene, first_round, cancel, expect);
     while (true) {

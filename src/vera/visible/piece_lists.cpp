@@ -18,64 +18,19 @@ namespace vera {
 
 namespace {
 
-/// The points of the parts by one number, as if they stood one part's behind the other's.
-class PartedPoints {
-public:
-    explicit PartedPoints(const std::vector<PackedPieces>& parts)
-        : parts_(parts) {
-        for (const PackedPieces& part : parts)
-            starts_.push_back(starts_.back() + part.points.size());
-        for (std::size_t part = 0, i = 0; i < count(); i += block) {
-            while (starts_[part + 1] <= i)
-                ++part;
-            part_of_block_.push_back(part);
-        }
-    }
-
-    std::size_t count() const { return starts_.back(); }
-
-    /// With which number the part begins.
-    std::size_t start(std::size_t part) const { return starts_[part]; }
-
-    PackedPoint operator[](std::size_t i) const {
-        std::size_t part = part_of_block_[i / block];
-        while (starts_[part + 1] <= i)
-            ++part;
-        return parts_[part].point(i - starts_[part]);
-    }
-
-private:
-    static constexpr std::size_t block = 1024; ///< points: hardly as many as a part has
-
-    const std::vector<PackedPieces>& parts_;
-    std::vector<std::size_t> starts_ = {0};
-    std::vector<std::size_t> part_of_block_; ///< in which each block's first point is
-};
-
-/// The points of the parts, each once, in the order in which they come; numbers tells which of them
-/// each is. Takes them out of the parts. room_beside(count) is that for others behind them.
-template <typename RoomBeside>
-std::vector<PackedPoint> joined_points(
-    const PartedPoints& parted,
-    std::vector<PackedPieces>& parts,
-    std::vector<std::uint32_t>& numbers,
-    const RoomBeside& room_beside) {
-    numbers = first_equal(
-        parted.count(),
-        [&](std::size_t i) { return hash_of(parted[i]); },
-        [&](std::size_t i, std::size_t j) { return parted[i] == parted[j]; });
+/// Leaves each point once, in the order in which they come. Returns of each point which of those
+/// it is.
+std::vector<std::uint32_t> numbers_of_points(std::vector<PackedPoint>& points) {
+    std::vector<std::uint32_t> numbers = first_equal(
+        points.size(),
+        [&](std::size_t i) { return hash_of(points[i]); },
+        [&](std::size_t i, std::size_t j) { return points[i] == points[j]; });
     const std::vector<std::uint32_t> firsts = number_consecutively(numbers);
-    std::vector<PackedPoint> points;
-    points.reserve(firsts.size() + room_beside(firsts.size()));
-    FreedBlocks freed;
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        const std::size_t start = parted.start(i);
-        for (const std::size_t end = parted.start(i + 1);
-             points.size() < firsts.size() && firsts[points.size()] < end;)
-            points.push_back(parts[i].point(firsts[points.size()] - start));
-        freed.free(parts[i].points);
-    }
-    return points;
+    for (std::size_t i = 0; i < firsts.size(); ++i)
+        points[i] = points[firsts[i]];
+    points.resize(firsts.size());
+    give_back_unused(points);
+    return numbers;
 }
 
 /// Lets the vector grow to that size, where it has no room for it in a room of that size alone.
@@ -159,120 +114,42 @@ void for_each_merged(const VisiblePieces& before, const VisiblePieces& found, co
 
 } // namespace
 
-VisiblePieces joined(std::vector<PackedPieces> parts, std::size_t others) {
-    const PartedPoints parted(parts);
+VisiblePieces joined(std::vector<SeenPart> parts, std::size_t others) {
+    std::size_t points = 0;
     std::size_t pieces = 0;
     std::size_t unlit = 0;
-    for (const PackedPieces& part : parts) {
+    for (const SeenPart& part : parts) {
+        points += part.points();
         pieces += part.size();
-        unlit += part.unlit.size();
+        unlit += part.unlit();
     }
+    FreedBlocks freed;
     VisiblePieces result;
-    std::vector<std::uint32_t> numbers;
-    result.points = joined_points(parted, parts, numbers, [&](std::size_t points) {
-        return pieces == 0 ? 0 : points * others / pieces; // as many of a piece as here
-    });
+    // With as many of another piece as here.
+    result.points.reserve(points + (pieces == 0 ? 0 : points * others / pieces));
+    std::vector<std::size_t> starts; // of the parts' points
+    for (SeenPart& part : parts) {
+        const std::size_t before = part.room();
+        starts.push_back(result.points.size());
+        part.take_points(result.points);
+        freed.count(before - part.room());
+    }
+    const std::vector<std::uint32_t> numbers = numbers_of_points(result.points);
     result.pieces.reserve(pieces + others);
     result.unlit.reserve(unlit == 0 ? 0 : unlit + others);
-    FreedBlocks freed;
     for (std::size_t i = 0; i < parts.size(); ++i) {
-        PackedPieces& part = parts[i];
-        const auto number = [&](std::uint32_t point) { return numbers[parted.start(i) + point]; };
-        for (std::size_t j = 0; j < part.size(); ++j) {
-            VisiblePiece piece = part.piece(j);
-            piece.from = number(piece.from);
-            piece.to = number(piece.to);
+        freed.count(parts[i].room());
+        const VisiblePieces list = parts[i].take();
+        for (VisiblePiece piece : list.pieces) {
+            piece.from = numbers[starts[i] + piece.from];
+            piece.to = numbers[starts[i] + piece.to];
             result.pieces.push_back(piece);
         }
-        freed.free(part.pieces);
-        for (std::size_t j = 0; j < part.unlit.size(); ++j)
-            result.unlit.push_back(part.unlit_beside(j));
-        freed.free(part.unlit);
+        result.unlit.insert(result.unlit.end(), list.unlit.begin(), list.unlit.end());
         result.penetrating.insert(
-            result.penetrating.end(), part.penetrating.begin(), part.penetrating.end());
-        free_room(part.penetrating);
+            result.penetrating.end(), parts[i].penetrating.begin(), parts[i].penetrating.end());
+        free_room(parts[i].penetrating);
     }
-    return result;
-}
-
-namespace {
-
-/// A piece of one of many parts.
-struct PieceInParts {
-    std::size_t part = 0;
-    std::size_t piece = 0;
-
-    friend auto operator<=>(const PieceInParts&, const PieceInParts&) = default;
-};
-
-/// The first one that is of that edge or a later one.
-PieceInParts first_from(ScreenEdges::Edge edge, const std::vector<PackedPieces>& parts) {
-    PieceInParts at;
-    while (at.part < parts.size()
-           && (parts[at.part].size() == 0 || parts[at.part].edge(parts[at.part].size() - 1) < edge))
-        ++at.part;
-    while (at.part < parts.size() && parts[at.part].edge(at.piece) < edge)
-        ++at.piece;
-    return at;
-}
-
-/// The pieces of a part, and those that were found from one place on to before another one.
-std::vector<PackedPieces> merged_part(
-    const PackedPieces& before,
-    const std::vector<PackedPieces>& found,
-    PieceInParts from,
-    PieceInParts end) {
-    constexpr std::size_t many = 8192; // pieces
-    std::vector<PackedPieces> result;
-    VisiblePieces list;
-    PieceCopy kept(before, list);
-    std::size_t next = 0; // of those before
-    for (; from < end; from = {from.part + 1, 0}) {
-        const PackedPieces& part = found[from.part];
-        const std::size_t last = from.part == end.part ? end.piece : part.size();
-        PieceCopy copy(part, list);
-        for (std::size_t i = from.piece; i < last; ++i) {
-            for (; next < before.size() && before.edge(next) < part.edge(i); ++next)
-                kept.add(next);
-            copy.add(i);
-        }
-        if (list.pieces.size() < many)
-            continue;
-        result.emplace_back(list);
-        list = {};
-        kept.start();
-    }
-    for (; next < before.size(); ++next)
-        kept.add(next);
-    result.emplace_back(list);
-    return result;
-}
-
-} // namespace
-
-std::vector<PackedPieces>
-merged(std::vector<PackedPieces> before, std::vector<PackedPieces> found) {
-    const auto is_empty = [](const PackedPieces& part) { return part.size() == 0; };
-    std::erase_if(before, is_empty);
-    std::erase_if(found, is_empty);
-    if (before.empty())
-        return found;
-    // Each part takes what was found up to the next one's first edge.
-    std::vector<PieceInParts> starts = {{}};
-    for (std::size_t i = 1; i < before.size(); ++i)
-        starts.push_back(first_from(before[i].edge(0), found));
-    starts.push_back({found.size(), 0});
-    std::vector<std::vector<PackedPieces>> merged(before.size());
-    parallel_ranges(before.size(), 1, [&](std::size_t i, std::size_t) {
-        if (starts[i] < starts[i + 1])
-            merged[i] = merged_part(before[i], found, starts[i], starts[i + 1]);
-        else
-            merged[i].push_back(std::move(before[i]));
-        before[i] = {};
-    });
-    std::vector<PackedPieces> result;
-    for (std::vector<PackedPieces>& parts : merged)
-        std::ranges::move(parts, std::back_inserter(result));
     return result;
 }
 

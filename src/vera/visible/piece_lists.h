@@ -4,7 +4,7 @@
 #pragma once
 
 #include "vera/base/free_room.h"
-#include "vera/visible/packed_pieces.h"
+#include "vera/visible/seen_parts.h"
 
 #include <cstddef>
 #include <vector>
@@ -15,40 +15,26 @@ namespace vera {
 /// the room of those that are done with, and does not stand beside it.
 class FreedBlocks {
 public:
-    template <typename T>
-    void free(std::vector<T>& vector) {
-        bytes_ += vector.capacity() * sizeof(T);
-        free_room(vector);
-        give_back_much();
-    }
-
-    template <std::size_t Columns>
-    void free(PackedRows<Columns>& rows) {
-        bytes_ += rows.room();
-        rows = {};
-        give_back_much();
-    }
-
-private:
-    void give_back_much() {
+    /// So many bytes were freed.
+    void count(std::size_t bytes) {
         constexpr std::size_t much = std::size_t{3} << 20U;
+        bytes_ += bytes;
         if (bytes_ < much)
             return;
         give_back_freed_memory();
         bytes_ = 0;
     }
 
+private:
+
     std::size_t bytes_ = 0;
 };
 
 /// The parts one behind the other. With room for so many other pieces, which are merged in later.
-VisiblePieces joined(std::vector<PackedPieces> parts, std::size_t others = 0);
+VisiblePieces joined(std::vector<SeenPart> parts, std::size_t others = 0);
 
-/// The pieces before, and the ones that were found, which are of other edges, by their edges: parts
-/// that, when they are joined, are as if all had been found together. Without what penetrates.
-std::vector<PackedPieces> merged(std::vector<PackedPieces> before, std::vector<PackedPieces> found);
-
-/// The same of lists. Lights are those of both; what penetrates is that which was found. Done in
+/// The pieces before, and the ones that were found, which are of other edges, by their edges: as if
+/// all had been found together. Lights are those of both; what penetrates is that which was found. Done in
 /// the room of the larger list, where that suffices.
 VisiblePieces merged(VisiblePieces before, VisiblePieces found);
 

@@ -27,7 +27,7 @@ namespace {
 /// What was seen beside each edge without shadows, for edges that come in ascending order.
 class SeenBefore {
 public:
-    SeenBefore(const ScreenScene& screen, const std::vector<PackedPieces>& before)
+    SeenBefore(const ScreenScene& screen, const std::vector<SeenPart>& before)
         : screen_(screen)
         , before_(before) {}
 
@@ -35,14 +35,14 @@ public:
     template <typename Visit>
     void for_each_beside(ScreenEdges::Edge edge, const Visit& visit) {
         for (; part_ < before_.size(); ++part_, next_ = 0) {
-            const PackedPieces& part = before_[part_];
-            for (; next_ < part.size(); ++next_) {
-                const ScreenEdges::Edge here = part.edge(next_);
-                if (edge < here)
+            if (next_ == 0)
+                list_ = before_[part_].list();
+            for (; next_ < list_.pieces.size(); ++next_) {
+                const VisiblePiece& piece = list_.pieces[next_];
+                if (edge < piece.edge)
                     return;
-                if (here != edge)
+                if (piece.edge != edge)
                     continue;
-                const VisiblePiece piece = part.piece(next_);
                 for (const std::uint32_t triangle : {piece.left, piece.right})
                     if (triangle != no_triangle)
                         visit(screen_.triangles[triangle].source);
@@ -52,28 +52,31 @@ public:
 
 private:
     const ScreenScene& screen_;
-    const std::vector<PackedPieces>& before_;
+    const std::vector<SeenPart>& before_;
     std::size_t part_ = 0;
+    VisiblePieces list_;   ///< of the part
     std::size_t next_ = 0; ///< of its pieces
 };
 
 /// What was seen without shadows, of which parts of the edges take what stays as it was.
 class TakenBefore {
 public:
-    explicit TakenBefore(std::vector<PackedPieces>& before)
-        : before_(before) {}
+    TakenBefore(std::vector<SeenPart>& before, PieceStorage storage)
+        : before_(before)
+        , storage_(storage) {}
 
     /// Of edges that come in ascending order, the pieces of those that are not near a change; which
     /// are forgotten with the others up to the last of these edges.
     VisiblePieces
     take(std::span<const ScreenEdges::Edge> edges, std::span<const std::uint8_t> is_near_change) {
-        std::vector<PackedPieces> all;
+        std::vector<SeenPart> all;
         for (std::size_t edge = 0; part_ < before_.size() && !edges.empty();) {
-            PackedPieces& part = before_[part_];
+            if (next_ == 0)
+                list_ = before_[part_].list();
             VisiblePieces taken;
-            PieceCopy copy(part, taken);
-            for (; next_ < part.size(); ++next_) {
-                const ScreenEdges::Edge here = part.edge(next_);
+            PieceCopy copy(list_, taken);
+            for (; next_ < list_.pieces.size(); ++next_) {
+                const ScreenEdges::Edge here = list_.pieces[next_].edge;
                 if (edges.back() < here)
                     break;
                 while (edges[edge] < here)
@@ -82,11 +85,11 @@ public:
                     copy.add(next_);
             }
             if (!taken.pieces.empty())
-                all.emplace_back(taken);
-            if (next_ < part.size())
+                all.emplace_back(std::move(taken), storage_);
+            if (next_ < list_.pieces.size())
                 break;
-            freed_.free(part.pieces);
-            freed_.free(part.points);
+            freed_.count(before_[part_].room());
+            before_[part_] = {};
             ++part_;
             next_ = 0;
         }
@@ -94,9 +97,11 @@ public:
     }
 
 private:
-    std::vector<PackedPieces>& before_;
+    std::vector<SeenPart>& before_;
+    PieceStorage storage_;
     FreedBlocks freed_;
     std::size_t part_ = 0;
+    VisiblePieces list_;   ///< of the part
     std::size_t next_ = 0; ///< of its pieces
 };
 
@@ -172,19 +177,20 @@ struct KeptVertices {
 };
 
 /// Makes one of the parts from that number on.
-void join_from(std::size_t first, std::vector<PackedPieces>& parts) {
+void join_from(std::size_t first, std::vector<SeenPart>& parts, PieceStorage storage) {
     const auto these = parts.begin() + static_cast<std::ptrdiff_t>(first);
-    const VisiblePieces one = joined({std::move_iterator(these), std::move_iterator(parts.end())});
+    VisiblePieces one = joined({std::move_iterator(these), std::move_iterator(parts.end())});
     parts.erase(these, parts.end());
-    parts.emplace_back(one);
+    parts.emplace_back(std::move(one), storage);
 }
 
 /// Joins parts in their order whenever they have many pieces: half of the points of small ones are
 /// points of others as well.
 class GrowingParts {
 public:
-    explicit GrowingParts(std::vector<PackedPieces>& parts)
-        : parts_(parts) {}
+    GrowingParts(std::vector<SeenPart>& parts, PieceStorage storage)
+        : parts_(parts)
+        , storage_(storage) {}
 
     /// When there are further ones.
     void join() {
@@ -193,14 +199,15 @@ public:
             pieces += parts_[i].size();
         if (pieces < many)
             return;
-        join_from(first_, parts_);
+        join_from(first_, parts_, storage_);
         first_ = parts_.size();
     }
 
 private:
     static constexpr std::size_t many = 65536;
 
-    std::vector<PackedPieces>& parts_;
+    std::vector<SeenPart>& parts_;
+    PieceStorage storage_;
     std::size_t first_ = 0; ///< of those that are not joined
 };
 
@@ -208,7 +215,7 @@ class ShadowedRaster {
 public:
     ShadowedRaster(
         ScreenScene& screen,
-        const std::vector<PackedPieces>& before,
+        const std::vector<SeenPart>& before,
         bool sees_others,
         ThrownShadows& thrown,
         std::size_t at_a_time,
@@ -230,7 +237,10 @@ public:
               progress,
               cancel))
         , squares_(raster_.cells)
-        , edges_(raster_.edges.edges.size()) {}
+        , edges_(raster_.edges.edges.size()) {
+        constexpr std::size_t edges_of_shadow = 3;
+        raster_.storage = storage_of(edges_ + edges_of_shadow * thrown.count());
+    }
 
     /// Takes the shadows out of the screen.
     ~ShadowedRaster() { take_out(); }
@@ -238,10 +248,10 @@ public:
     ShadowedRaster(const ShadowedRaster&) = delete;
     ShadowedRaster& operator=(const ShadowedRaster&) = delete;
 
-    std::vector<PackedPieces>
-    follow_surfaces(std::vector<PackedPieces> before, const Progress& progress);
+    std::vector<SeenPart>
+    follow_surfaces(std::vector<SeenPart> before, const Progress& progress);
     double expected_of_shadows();
-    std::vector<PackedPieces> follow_shadows(const Progress& progress);
+    std::vector<SeenPart> follow_shadows(const Progress& progress);
 
     /// Afterwards.
     KeptVertices take_kept() { return std::move(kept_); }
@@ -255,14 +265,14 @@ private:
     void take_out();
     std::vector<std::uint32_t> add(std::span<const std::uint32_t> faces);
     void mark_near_shadows(std::size_t first, std::size_t last);
-    void keep_vertices(std::span<const std::uint32_t> lights, std::span<PackedPieces> parts);
+    void keep_vertices(std::span<const std::uint32_t> lights, std::span<SeenPart> parts);
 
     bool has_shadows(std::uint32_t triangle) const {
         return thrown_.count_on(screen_.triangles[triangle].source) > 0;
     }
 
     ScreenScene& screen_;
-    const std::vector<PackedPieces>& before_;
+    const std::vector<SeenPart>& before_;
     ThrownShadows& thrown_;
     const CancelFlag* cancel_;
     std::size_t triangles_; ///< surfaces
@@ -340,18 +350,18 @@ void ShadowedRaster::mark_near_shadows(std::size_t first, std::size_t last) {
 
 /// The borders of surfaces, in the shadows on both sides, in parts. What was before is forgotten
 /// piece by piece.
-std::vector<PackedPieces>
-ShadowedRaster::follow_surfaces(std::vector<PackedPieces> before, const Progress& progress) {
+std::vector<SeenPart>
+ShadowedRaster::follow_surfaces(std::vector<SeenPart> before, const Progress& progress) {
     const LongLoop loop(edges_, progress, cancel_, 1);
     raster_.is_near_change.assign(edges_, 0);
     const auto unlit = [&](std::uint32_t triangle) {
         return triangle == no_triangle ? 0 : screen_.unlit_of(screen_.triangles[triangle].source);
     };
-    std::vector<PackedPieces> parts;
-    GrowingParts growing(parts);
+    std::vector<SeenPart> parts;
+    GrowingParts growing(parts, raster_.storage);
     EdgeTriangles edge_triangles = vera::edge_triangles(screen_, raster_.edges);
     SeenBefore seen(screen_, before);
-    TakenBefore taken(before);
+    TakenBefore taken(before, raster_.storage);
     FaceBatch batch(thrown_, most_);
     for (std::uint32_t face = 0; sees_others_ && face < thrown_.face_count(); ++face)
         batch.add(face);
@@ -381,7 +391,7 @@ ShadowedRaster::follow_surfaces(std::vector<PackedPieces> before, const Progress
             VisiblePieces found =
                 joined({std::move_iterator(these), std::move_iterator(parts.end())});
             parts.erase(these, parts.end());
-            parts.emplace_back(merged(std::move(kept), std::move(found)));
+            parts.emplace_back(merged(std::move(kept), std::move(found)), raster_.storage);
         }
         growing.join();
         give_back_spent(edge_triangles.starts, 0, edge + 1);
@@ -421,14 +431,14 @@ double ShadowedRaster::expected_of_shadows() {
 /// Of the shadows' vertices, which are forgotten and of which each light has those from there on,
 /// keeps those between which pieces lie.
 void ShadowedRaster::keep_vertices(
-    std::span<const std::uint32_t> lights, std::span<PackedPieces> parts) {
+    std::span<const std::uint32_t> lights, std::span<SeenPart> parts) {
     constexpr std::uint32_t none = ~std::uint32_t{0};
     std::vector<std::uint32_t> numbers(screen_.vertices.size() - vertices_, none);
-    for (const PackedPieces& part : parts)
-        for (std::size_t i = 0; i < part.size(); ++i) {
-            const ScreenEdges::Edge edge = part.edge(i);
+    for (const SeenPart& part : parts) {
+        const VisiblePieces list = part.list();
+        for (const auto& [from, to, edge, left, right] : list.pieces)
             numbers[edge.begin - vertices_] = numbers[edge.end - vertices_] = 0;
-        }
+    }
     std::vector<std::size_t>& ends = kept_.ends.emplace_back();
     for (std::size_t light = 0; light + 1 < lights.size(); ++light) {
         for (std::size_t i = lights[light]; i < lights[light + 1]; ++i)
@@ -438,19 +448,20 @@ void ShadowedRaster::keep_vertices(
             }
         ends.push_back(kept_.vertices.size());
     }
-    for (PackedPieces& part : parts) {
-        VisiblePieces list = part.unpacked();
+    for (SeenPart& part : parts) {
+        VisiblePieces list = part.take();
         for (VisiblePiece& piece : list.pieces)
             piece.edge = {
                 numbers[piece.edge.begin - vertices_], numbers[piece.edge.end - vertices_]};
-        part = PackedPieces(list);
+        list.penetrating = std::move(part.penetrating);
+        part = SeenPart(std::move(list), raster_.storage);
     }
 }
 
 /// The borders of shadows, in parts. What throws them is forgotten face by face.
-std::vector<PackedPieces> ShadowedRaster::follow_shadows(const Progress& progress) {
-    std::vector<PackedPieces> parts;
-    GrowingParts growing(parts);
+std::vector<SeenPart> ShadowedRaster::follow_shadows(const Progress& progress) {
+    std::vector<SeenPart> parts;
+    GrowingParts growing(parts, raster_.storage);
     FaceBatch batch(thrown_, most_);
     const LongLoop loop(thrown_.face_count(), progress, cancel_, 1);
     for (std::uint32_t face = 0; face < thrown_.face_count(); ++face) {
@@ -550,12 +561,12 @@ ShadowedPieces shadowed_cell_raster(
     const std::size_t vertices = screen.vertices.size();
     std::vector<std::pair<std::uint32_t, std::uint32_t>> penetrating =
         std::move(before.penetrating);
-    std::vector<PackedPieces> of_surfaces; // in parts: what edges are compared with is there yet
-    std::vector<PackedPieces> parts;
+    std::vector<SeenPart> of_surfaces; // in parts: what edges are compared with is there yet
+    std::vector<SeenPart> parts;
     KeptVertices kept;
     {
         ThrownShadows own = std::move(thrown);
-        std::vector<PackedPieces> parts_before = parts_of(before);
+        std::vector<SeenPart> parts_before = parts_of(before);
         free_room(before.points);
         free_room(before.pieces);
         ShadowedRaster raster(
@@ -563,7 +574,7 @@ ShadowedPieces shadowed_cell_raster(
         of_surfaces =
             raster.follow_surfaces(std::move(parts_before), progress_between(progress, 0.2, 0.6));
         std::size_t surfaces = 0;
-        for (const PackedPieces& part : of_surfaces)
+        for (const SeenPart& part : of_surfaces)
             surfaces += part.size();
         const double pieces = static_cast<double>(surfaces) + raster.expected_of_shadows();
         require_piece_memory(pieces);
