@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/packed_pieces.h"
+#include "vera/visible/seen_parts.h"
 
+#include <algorithm>
 #include <limits>
 #include <random>
 
@@ -29,8 +31,9 @@ TEST(PackedRows, NumbersOfAnyLengthAreAsTheyWere) {
             }
         const PackedRows<3> packed(rows.size(), [&](std::size_t i) { return rows[i]; });
         ASSERT_EQ(packed.size(), rows.size());
-        for (std::size_t i = 0; i < rows.size(); ++i)
-            ASSERT_EQ(packed[i], rows[i]) << "seed " << seed << ", row " << i;
+        std::vector<PackedRows<3>::Row> again;
+        packed.for_each([&](const auto& row) { again.push_back(row); });
+        ASSERT_EQ(again, rows) << "seed " << seed;
     }
 }
 
@@ -39,7 +42,28 @@ TEST(PackedRows, EqualNumbersTakeNoRoom) {
         return PackedRows<2>::Row{7, std::numeric_limits<std::uint64_t>::max()};
     });
     EXPECT_LT(packed.room(), 64U);
-    EXPECT_EQ(packed[99'999][1], std::numeric_limits<std::uint64_t>::max());
+    std::size_t equal = 0;
+    packed.for_each([&](const auto& row) {
+        equal += row[0] == 7 && row[1] == std::numeric_limits<std::uint64_t>::max() ? 1 : 0;
+    });
+    EXPECT_EQ(equal, 100'000U);
+}
+
+void expect_same(const VisiblePieces& again, const VisiblePieces& list) {
+    EXPECT_TRUE(again.points == list.points);
+    ASSERT_EQ(again.pieces.size(), list.pieces.size());
+    ASSERT_EQ(again.unlit.size(), list.unlit.size());
+    for (std::size_t i = 0; i < list.pieces.size(); ++i) {
+        EXPECT_EQ(again.pieces[i].from, list.pieces[i].from);
+        EXPECT_EQ(again.pieces[i].to, list.pieces[i].to);
+        EXPECT_EQ(again.pieces[i].edge, list.pieces[i].edge);
+        EXPECT_EQ(again.pieces[i].left, list.pieces[i].left);
+        EXPECT_EQ(again.pieces[i].right, list.pieces[i].right);
+    }
+    for (std::size_t i = 0; i < list.unlit.size(); ++i) {
+        EXPECT_EQ(again.unlit[i].left, list.unlit[i].left);
+        EXPECT_EQ(again.unlit[i].right, list.unlit[i].right);
+    }
 }
 
 TEST(PackedPieces, TheSmallestAndTheLargestAreAsTheyWere) {
@@ -53,27 +77,33 @@ TEST(PackedPieces, TheSmallestAndTheLargestAreAsTheyWere) {
         {0, 1, {0, no_triangle - 1}, no_triangle, 0}, {2, 2, {5, 6}, no_triangle - 1, no_triangle}};
     list.unlit = {{all_lights, 0}, {0, 1}};
     list.penetrating = {{1, 2}};
-    const PackedPieces packed(list);
-    const VisiblePieces again = packed.unpacked();
-    EXPECT_TRUE(again.points == list.points);
-    ASSERT_EQ(again.pieces.size(), 2U);
-    for (std::size_t i = 0; i < 2; ++i) {
-        EXPECT_EQ(again.pieces[i].from, list.pieces[i].from);
-        EXPECT_EQ(again.pieces[i].to, list.pieces[i].to);
-        EXPECT_EQ(again.pieces[i].edge, list.pieces[i].edge);
-        EXPECT_EQ(packed.edge(i), list.pieces[i].edge);
-        EXPECT_EQ(again.pieces[i].left, list.pieces[i].left);
-        EXPECT_EQ(again.pieces[i].right, list.pieces[i].right);
-        EXPECT_EQ(again.unlit[i].left, list.unlit[i].left);
-        EXPECT_EQ(again.unlit[i].right, list.unlit[i].right);
+    expect_same(PackedPieces(list).unpacked(), list);
+    for (const PieceStorage storage : {PieceStorage::plain, PieceStorage::packed}) {
+        SeenPart part(list, storage);
+        EXPECT_EQ(part.size(), 2U);
+        EXPECT_EQ(part.points(), 3U);
+        EXPECT_EQ(part.unlit(), 2U);
+        EXPECT_EQ(part.penetrating, list.penetrating);
+        expect_same(part.list(), list);
+        expect_same(part.take(), list);
+        EXPECT_EQ(part.size(), 0U);
+        EXPECT_EQ(part.room(), 0U);
+        SeenPart other(list, storage);
+        std::vector<PackedPoint> points(1);
+        other.take_points(points);
+        EXPECT_TRUE(std::equal(points.begin() + 1, points.end(), list.points.begin()));
+        EXPECT_EQ(points.size(), 4U);
+        EXPECT_EQ(other.points(), 0U);
+        EXPECT_EQ(other.take().pieces.size(), 2U);
     }
-    EXPECT_EQ(again.penetrating, list.penetrating);
 }
 
 TEST(PackedPieces, NothingIsNothing) {
-    const VisiblePieces again = PackedPieces(VisiblePieces{}).unpacked();
-    EXPECT_TRUE(again.points.empty());
-    EXPECT_TRUE(again.pieces.empty());
+    for (const PieceStorage storage : {PieceStorage::plain, PieceStorage::packed}) {
+        const VisiblePieces again = SeenPart(VisiblePieces{}, storage).take();
+        EXPECT_TRUE(again.points.empty());
+        EXPECT_TRUE(again.pieces.empty());
+    }
     EXPECT_TRUE(parts_of({}).empty());
 }
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "vera/visible/cell_raster_stages.h"
 #include "vera/visible/piece_lists.h"
 
 #include <algorithm>
 #include <random>
 #include <utility>
 
+#include "visible/screen_scenes.h"
 #include <gtest/gtest.h>
 
 namespace vera {
@@ -73,22 +75,35 @@ some_pieces(std::mt19937& random, std::uint32_t first, std::uint32_t last, bool 
     return all;
 }
 
+/// The list with points of its own for each piece, as parts may have them.
+VisiblePieces with_each_end(const VisiblePieces& list) {
+    VisiblePieces result = list;
+    result.points.clear();
+    for (VisiblePiece& piece : result.pieces)
+        for (std::uint32_t* end : {&piece.from, &piece.to}) {
+            result.points.push_back(list.points[*end]);
+            *end = static_cast<std::uint32_t>(result.points.size() - 1);
+        }
+    return result;
+}
+
 TEST(PieceLists, PartsAreJoinedAsOneAfterTheOtherIsAdded) {
     std::size_t common = 0;
     for (std::uint32_t seed = 0; seed < 200; ++seed) {
         std::mt19937 random(seed);
         const bool with_lights = seed % 2 == 1;
-        std::vector<PackedPieces> parts;
+        std::vector<SeenPart> parts;
         VisiblePieces expected;
         std::size_t points = 0;
         for (std::uint32_t i = 0; i < seed % 6; ++i) {
             const VisiblePieces part = some_pieces(random, 5 * i, 5 * (i + 1), with_lights);
-            parts.emplace_back(part);
             points += part.points.size();
             for (std::size_t j = 0; j < part.pieces.size(); ++j)
                 add_plainly(expected, part, j, with_lights);
             expected.penetrating.insert(
                 expected.penetrating.end(), part.penetrating.begin(), part.penetrating.end());
+            parts.emplace_back(
+                with_each_end(part), i % 2 == 0 ? PieceStorage::plain : PieceStorage::packed);
         }
         common += points - expected.points.size();
         expect_same(joined(std::move(parts), seed % 7), expected, seed);
@@ -101,7 +116,7 @@ TEST(PieceLists, PartsOfAListAreTheListWhenTheyAreJoined) {
         std::mt19937 random(edges);
         VisiblePieces list = some_pieces(random, 0, edges, false);
         list.penetrating.clear();
-        std::vector<PackedPieces> parts = parts_of(list);
+        std::vector<SeenPart> parts = parts_of(list);
         EXPECT_EQ(parts.size(), (list.pieces.size() + 4095) / 4096);
         const VisiblePieces again = joined(std::move(parts), 100);
         expect_same(again, list, edges);
@@ -192,49 +207,30 @@ TEST(PieceLists, KeptAndFoundPiecesAreMergedAsAllByTheirEdges) {
     EXPECT_GT(both, 100U);
 }
 
-/// Parts of some edges each; where there are none, one without pieces.
-std::vector<PackedPieces> in_parts(std::mt19937& random, const VisiblePieces& list) {
-    std::vector<PackedPieces> parts;
-    VisiblePieces part;
-    for (std::size_t i = 0; i < list.pieces.size(); ++i) {
-        const bool is_of_next_edge = i > 0 && list.pieces[i - 1].edge != list.pieces[i].edge;
-        if (is_of_next_edge && random() % 8 == 0) {
-            parts.emplace_back(part);
-            part = {};
-        }
-        add_plainly(part, list, i, true);
-    }
-    parts.emplace_back(part);
-    return parts;
-}
-
-TEST(PieceLists, PartsAreMergedAsOneListByTheirEdges) {
-    std::size_t both = 0;
-    for (std::uint32_t seed = 0; seed < 300; ++seed) {
+TEST(PieceLists, KeptPiecesAndThoseOfEdgesFollowedAgainAreAsIfAllHadBeenFollowed) {
+    ScreenScene scene = testing::scattered(1, 4'000, screen_size / 50);
+    sort_by_place(scene);
+    const VisiblePieces expected = cell_raster(scene);
+    for (std::uint32_t seed = 0; seed < 12; ++seed) {
+        CellRaster raster = raster_of(scene, {}, {}, nullptr);
+        raster.storage = seed % 2 == 0 ? PieceStorage::plain : PieceStorage::packed;
+        std::vector<SeenPart> parts;
+        follow_edges(raster, 0, raster.edges.edges.size(), {}, nullptr, parts);
+        EXPECT_GT(parts.size(), 2U);
         std::mt19937 random(seed);
-        const VisiblePieces all = some_pieces(random, 0, seed % 3 == 0 ? 30000 : seed, true);
-        VisiblePieces before;
-        VisiblePieces found;
-        // Edges of one or the other come alone, and many behind each other.
-        bool is_before = false;
-        for (std::size_t i = 0; i < all.pieces.size(); ++i) {
-            if (i == 0 || all.pieces[i].edge != all.pieces[i - 1].edge)
-                is_before = random() % (1 + seed % 50) == 0 ? !is_before : is_before;
-            VisiblePieces& list = is_before ? before : found;
-            list.pieces.push_back(all.pieces[i]);
-            list.unlit.push_back(all.unlit[i]);
+        // None, all, few and many, in stretches.
+        std::uint8_t is_near = seed == 0 ? 1 : 0;
+        for (std::size_t i = 0; i < raster.edges.edges.size(); ++i) {
+            if (seed > 3 && random() % (seed * seed * seed) == 0)
+                is_near = is_near == 0 ? 1 : 0;
+            raster.is_near_change.push_back(is_near);
         }
-        for (VisiblePieces* list : {&before, &found})
-            list->points = all.points;
-        std::vector<PackedPieces> parts_before = in_parts(random, before);
-        std::vector<PackedPieces> parts_found = in_parts(random, found);
-        VisiblePieces expected = all;
-        expected.penetrating.clear();
-        expect_same(
-            joined(merged(std::move(parts_before), std::move(parts_found))), expected, seed);
-        both += before.pieces.empty() || found.pieces.empty() ? 0 : 1;
+        PiecesOfParts kept = kept_pieces(raster, std::move(parts));
+        parts.clear();
+        follow_edges(
+            raster, 0, raster.edges.edges.size(), {}, nullptr, parts, nullptr, std::move(kept));
+        expect_same(joined(std::move(parts)), expected, seed);
     }
-    EXPECT_GT(both, 200U);
 }
 
 } // namespace

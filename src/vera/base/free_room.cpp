@@ -19,7 +19,7 @@ void give_back_freed_blocks() {
 
 void give_back_freed_memory() {
 #ifdef __GLIBC__
-    constexpr std::size_t little = std::size_t{2} << 20U;
+    constexpr std::size_t little = std::size_t{16} << 20U;
     if (mallinfo2().fordblks > little)
         malloc_trim(0);
 #endif

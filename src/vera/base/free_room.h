@@ -19,7 +19,8 @@ void free_room(std::vector<T>& vector) {
 void give_back_freed_blocks();
 
 /// Gives what was freed, but is kept to be used again, back to the system where it is more than
-/// 2 MiB. For the moment after much was freed in small blocks, and before much is needed in large
+/// 16 MiB: less is soon used again, and large pages of which a part is given back become small
+/// ones. For the moment after much was freed in small blocks, and before much is needed in large
 /// ones.
 void give_back_freed_memory();
 

@@ -84,7 +84,7 @@ void check_memory(
         return;
     auto [pieces, pairs] = expected_pieces(raster, 0, raster.edges.edges.size(), cancel);
     pieces += static_cast<double>(kept);
-    require_piece_memory(pieces, pairs);
+    require_piece_memory(pieces, pairs, raster.storage);
     if (expect)
         expect(pieces);
 }

@@ -65,8 +65,10 @@ double raster_bytes(const ScreenCounts& counts) {
         + per_cell * cells;
 }
 
-double piece_bytes(double pieces, double pairs) {
-    constexpr double per_piece = 55; // with a point, in parts and as one list
+double piece_bytes(double pieces, double pairs, PieceStorage storage) {
+    // With a point, in parts and as one list; where parts are packed, most of the list takes the
+    // place of what edges were compared with.
+    const double per_piece = storage == PieceStorage::plain ? 55 : 30;
     constexpr double per_pair = 24;
     return per_piece * pieces + per_pair * pairs;
 }
@@ -136,11 +138,11 @@ void require_raster_memory(const ScreenScene& scene) {
         remedy);
 }
 
-void require_piece_memory(double pieces, double pairs) {
+void require_piece_memory(double pieces, double pairs, PieceStorage storage) {
     const std::string penetrating =
         pairs < 1 ? "" : ", and triangles pass through each other about " + about(pairs) + " times";
     require_memory(
-        piece_bytes(pieces, pairs),
+        piece_bytes(pieces, pairs, storage),
         "what is seen has borders of about " + about(pieces) + " pieces" + penetrating + ", which",
         remedy);
 }

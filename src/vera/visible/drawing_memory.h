@@ -6,6 +6,7 @@
 #include "vera/scene/facets.h"
 #include "vera/visible/drawing_style.h"
 #include "vera/visible/screen_scene.h"
+#include "vera/visible/seen_parts.h"
 
 #include <cstddef>
 
@@ -27,8 +28,9 @@ double curved_part_of(const Facets& facets);
 /// What all edges are compared with while cell_raster() runs, beside the scene.
 double raster_bytes(const ScreenCounts& counts);
 
-/// The pieces, and pairs of triangles that pass through each other, while cell_raster() finds them.
-double piece_bytes(double pieces, double pairs = 0);
+/// The pieces, and pairs of triangles that pass through each other, while cell_raster() finds them
+/// and keeps them like that.
+double piece_bytes(double pieces, double pairs = 0, PieceStorage storage = PieceStorage::plain);
 
 /// What is made of so many pieces, from the map to the text of the file, in place of what edges
 /// were compared with. Where outlines are made later, the text is in the file and not in memory.
@@ -40,7 +42,8 @@ drawing_bytes(double pieces, const ScreenCounts& counts, DrawingStyle style, Fac
 void require_raster_memory(const ScreenScene& scene);
 
 /// The same of the pieces and pairs, if so many are expected.
-void require_piece_memory(double pieces, double pairs = 0);
+void require_piece_memory(
+    double pieces, double pairs = 0, PieceStorage storage = PieceStorage::plain);
 
 /// The same of the whole drawing, while cell_raster() has what edges are compared with.
 void require_drawing_memory(

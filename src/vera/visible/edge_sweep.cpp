@@ -274,11 +274,7 @@ void EdgeSweep::follow(std::uint32_t edge, VisiblePieces& result) {
         result.points.push_back(point(last));
         const auto end = static_cast<std::uint32_t>(result.points.size() - 1);
         result.pieces.push_back(
-            {end - 1,
-             end,
-             raster_.edges.edges[edge],
-             open.left.triangle,
-             open.right.triangle});
+            {end - 1, end, raster_.edges.edges[edge], open.left.triangle, open.right.triangle});
         if (raster_.may_be_unlit())
             result.unlit.push_back({open.left.unlit, open.right.unlit});
     };

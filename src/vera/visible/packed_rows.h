@@ -36,7 +36,8 @@ public:
         }
         std::size_t bits_of_a_row = 0;
         for (std::size_t column = 0; column < Columns; ++column) {
-            widths_[column] = static_cast<std::size_t>(std::bit_width(most[column] - least_[column]));
+            widths_[column] =
+                static_cast<std::size_t>(std::bit_width(most[column] - least_[column]));
             bits_of_a_row += widths_[column];
         }
         // One word more, as a number is read from the word in which it begins and the next one.

@@ -32,10 +32,7 @@ public:
     /// What is found of the edges from first to before last that are near what was changed, and the
     /// kept pieces of others of these edges, which it takes. Throws Cancelled.
     SeenPart followed(
-        std::size_t first,
-        std::size_t last,
-        std::span<SeenPart> kept,
-        const CancelFlag* cancel);
+        std::size_t first, std::size_t last, std::span<SeenPart> kept, const CancelFlag* cancel);
 
     /// Of all edges that it followed.
     CellCounts counts() const { return sweep_.counts(); }

@@ -8,10 +8,8 @@
 #include "vera/visible/point_numbers.h"
 
 #include <algorithm>
-#include <compare>
 #include <cstddef>
 #include <cstdint>
-#include <iterator>
 #include <utility>
 
 namespace vera {

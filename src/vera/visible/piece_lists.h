@@ -26,7 +26,6 @@ public:
     }
 
 private:
-
     std::size_t bytes_ = 0;
 };
 
@@ -34,8 +33,8 @@ private:
 VisiblePieces joined(std::vector<SeenPart> parts, std::size_t others = 0);
 
 /// The pieces before, and the ones that were found, which are of other edges, by their edges: as if
-/// all had been found together. Lights are those of both; what penetrates is that which was found. Done in
-/// the room of the larger list, where that suffices.
+/// all had been found together. Lights are those of both; what penetrates is that which was found.
+/// Done in the room of the larger list, where that suffices.
 VisiblePieces merged(VisiblePieces before, VisiblePieces found);
 
 /// Makes one piece of those that follow each other on an edge, with the same beside them, where

@@ -8,7 +8,19 @@
 
 namespace vera {
 
-SeenPart::SeenPart(VisiblePieces list, PieceStorage storage)
+SeenPart::SeenPart(const VisiblePieces& list, PieceStorage storage)
+    : penetrating(list.penetrating) {
+    if (storage == PieceStorage::packed) {
+        pieces_ = PackedPieces(list);
+        return;
+    }
+    VisiblePieces& plain = pieces_.emplace<VisiblePieces>();
+    plain.points = list.points;
+    plain.pieces = list.pieces;
+    plain.unlit = list.unlit;
+}
+
+SeenPart::SeenPart(VisiblePieces&& list, PieceStorage storage)
     : penetrating(std::move(list.penetrating)) {
     if (storage == PieceStorage::packed)
         pieces_ = PackedPieces(list);

@@ -20,7 +20,7 @@ enum class PieceStorage {
 
 /// Of so many edges, or pieces. To pack few takes longer than to ask the system for their room.
 constexpr PieceStorage storage_of(std::size_t edges) {
-    constexpr std::size_t few = std::size_t{1} << 17U;
+    constexpr std::size_t few = std::size_t{1} << 16U;
     return edges < few ? PieceStorage::plain : PieceStorage::packed;
 }
 
@@ -29,7 +29,8 @@ constexpr PieceStorage storage_of(std::size_t edges) {
 class SeenPart {
 public:
     SeenPart() = default;
-    SeenPart(VisiblePieces list, PieceStorage storage);
+    SeenPart(const VisiblePieces& list, PieceStorage storage);
+    SeenPart(VisiblePieces&& list, PieceStorage storage);
 
     /// How many pieces it has.
     std::size_t size() const;

@@ -248,8 +248,7 @@ public:
     ShadowedRaster(const ShadowedRaster&) = delete;
     ShadowedRaster& operator=(const ShadowedRaster&) = delete;
 
-    std::vector<SeenPart>
-    follow_surfaces(std::vector<SeenPart> before, const Progress& progress);
+    std::vector<SeenPart> follow_surfaces(std::vector<SeenPart> before, const Progress& progress);
     double expected_of_shadows();
     std::vector<SeenPart> follow_shadows(const Progress& progress);
 
