@@ -288,8 +288,18 @@ TEST(DrawnSeams, OfShadedThingsBesideEachOtherShowNothingOfTheBackground) {
         const DrawingPoint at = {256.3, 256 - height};
         EXPECT_TRUE(testing::painted_color(fills.underlays, at)) << height;
     }
-    // Where two regions at most hang together nothing comes through, and silhouettes stay sharp.
+    // One region in one colour lets nothing through, and its silhouette stays sharp.
     EXPECT_FALSE(testing::painted_color(fills.underlays, {256.3, 256 - 2.2 * per_unit}));
+}
+
+TEST(DrawnSeams, OfTwoShadedThingsBesideEachOtherLieOnAnUnderlay) {
+    Scene scene;
+    add_wall(scene, -1, 0, 0.1);
+    add_wall(scene, 0, 1, 0.9);
+    const ShadedFills fills = shaded_fills(scene);
+    ASSERT_EQ(fills.faces.size(), 2U);
+    for (const double across : {-0.9, 0.0, 0.9})
+        EXPECT_TRUE(testing::painted_color(fills.underlays, {256 + across * per_unit, 256.3}));
 }
 
 } // namespace

@@ -190,6 +190,27 @@ TEST(RegionPaint, GoesToWhereItIsFarthestOff) {
     EXPECT_LT(off.most, 1.5 * tolerance);
 }
 
+/// Where parts meet at sharp angles, what smooths edges leaves a trace to what is behind them.
+TEST(RegionPaint, CoversWhatIsBehindARegionThatLiesOnNoUnderlay) {
+    PaintedRegion region;
+    region.rings = {{{0, 0}, {40, 0}, {40, 40}, {0, 40}}};
+    region.below = {{{40, 0}, {41, 0}, {41, 40}, {40, 40}}};
+    const ColorField field = [](DrawingPoint at) {
+        return Color{0.5 + 0.4 * std::sin(0.2 * at.x), 0.5 + 0.4 * std::sin(0.15 * at.y), 0.5};
+    };
+    const auto on_underlay = painted(region, field, {});
+    ASSERT_GT(on_underlay.size(), 3U);
+    region.lies_on_underlay = false;
+    const auto alone = painted(region, field, {});
+    ASSERT_EQ(alone.size(), on_underlay.size() + 1);
+    EXPECT_EQ(alone.front().rings.size(), 1U);
+    EXPECT_EQ(testing::doubled_area(alone.front().rings), 3200);
+    for (std::size_t i = 0; i < on_underlay.size(); ++i)
+        EXPECT_EQ(alone[i + 1].rings, on_underlay[i].rings) << i;
+    const ColorField plain = [](DrawingPoint) { return Color{0.5, 0.5, 0.5}; };
+    EXPECT_EQ(painted(region, plain, {}).size(), 1U);
+}
+
 /// Near borders too colours are as they are, where they change slowly.
 TEST(RegionPaint, IsWithinTheToleranceNearBorders) {
     PaintedRegion region;

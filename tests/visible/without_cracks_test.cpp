@@ -54,6 +54,22 @@ TEST(WithoutCracks, TakesAwayCracksWithCornersOnBothSides) {
     }
 }
 
+TEST(WithoutCracks, TakesAwayCracksWithBluntEnds) {
+    const BorderRing ring = {
+        {0, 0}, {10, 0}, {10, 10}, {5.01, 10}, {5.01, 3}, {5, 3}, {5, 10}, {0, 10}};
+    for (std::size_t first = 0; first < ring.size(); ++first) {
+        const BorderRing kept = without_cracks(begun_at(ring, first));
+        EXPECT_EQ(turns_about(std::vector<BorderRing>{kept}, {5.005, 5}), 1) << first;
+        EXPECT_FALSE(has(kept, {5, 3}) || has(kept, {5.01, 3})) << first;
+    }
+    // A hole, blunt at both ends and with corners between them, as two treads of a stair leave it.
+    // Its short sides are parts of curves.
+    const BorderRing hole = {
+        {{0, 0.001}, 2}, {0, 0}, {18, -0.009}, {{22.3, 0.005}, 7}, {22.3, 0.006}, {18, 0.004}};
+    for (std::size_t first = 0; first < hole.size(); ++first)
+        EXPECT_TRUE(without_cracks(begun_at(hole, first)).empty()) << first;
+}
+
 TEST(WithoutCracks, LeavesWhatIsWiderAndWhatLiesAlongCurves) {
     const BorderRing wide = cracked_square(0.05);
     EXPECT_EQ(without_cracks(wide).size(), wide.size());

@@ -124,9 +124,9 @@ private:
             drawn_firmament(sources_.camera, sources_.picture, tolerance(), cancel);
         drawing.background = firmament.background;
         drawing.fills = std::move(firmament.sky);
-        std::ranges::move(
-            shaded_underlays(sources_, regions_, stages.next(8), cancel),
-            std::back_inserter(drawing.fills));
+        ShadedUnderlays underlays = shaded_underlays(sources_, regions_, stages.next(8), cancel);
+        std::ranges::move(underlays.outlines, std::back_inserter(drawing.fills));
+        has_underlay_ = std::move(underlays.has_one);
     }
 
     /// What goes below what, and what lies below all.
@@ -189,6 +189,7 @@ private:
         long_parallel_loop(numbers.size(), {}, cancel, 64, [&](std::size_t i) {
             const std::uint32_t number = numbers[i];
             PaintedRegion region = named(number, groups[i]);
+            region.lies_on_underlay = has_underlay_[number];
             cover_seams_closely(regions_, number, region);
             lit[i] = {std::move(region), facet_of(number), ~sources_.map.regions[number].unlit};
         });
@@ -221,6 +222,7 @@ private:
     std::vector<Block> blocks_;
     std::vector<float> widths_;             ///< of the regions; of areas in one colour each
     std::vector<DrawingColor> colors_;      ///< likewise
+    std::vector<bool> has_underlay_;        ///< likewise; of areas in gradients
     std::vector<std::uint32_t> with_seams_; ///< regions
 };
 

@@ -100,6 +100,8 @@ public:
             finish(std::move(region), best);
             return;
         }
+        if (cuts == 0 && !region.lies_on_underlay)
+            finish(uncut(region), best);
         const HalfPlane rest = other_side(*half);
         PaintedRegion first = part_of(region, *half, moved(*half, overlap));
         std::ranges::move(strip_beyond(region.rings, *half), std::back_inserter(first.below));
@@ -362,16 +364,29 @@ private:
         return strip;
     }
 
+    /// Neither its seams nor what goes on below others.
+    static PaintedRegion uncut(const PaintedRegion& region) {
+        PaintedRegion whole = unpainted(region);
+        whole.rings = region.rings;
+        return whole;
+    }
+
     static PaintedRegion
     part_of(const PaintedRegion& region, const HalfPlane& half, const HalfPlane& half_below) {
-        PaintedRegion part;
-        part.outline.id = region.outline.id;
-        part.outline.name = region.outline.name;
-        part.outline.group = region.outline.group;
+        PaintedRegion part = unpainted(region);
         part.rings = cut_rings(region.rings, half);
         part.outline.seams = cut_lines(region.outline.seams, half);
         part.below = cut_rings(region.below, half_below);
         return part;
+    }
+
+    /// Nothing, with the region's names.
+    static PaintedRegion unpainted(const PaintedRegion& region) {
+        PaintedRegion nothing;
+        nothing.outline.id = region.outline.id;
+        nothing.outline.name = region.outline.name;
+        nothing.outline.group = region.outline.group;
+        return nothing;
     }
 
     void finish(PaintedRegion region, const FittedPaint& paint) {

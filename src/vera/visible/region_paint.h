@@ -16,6 +16,9 @@ struct PaintedRegion {
     FilledOutline outline;         ///< its names and seams
     std::vector<BorderRing> rings; ///< where the field holds
     std::vector<BorderRing> below; ///< where it goes on below what is painted later
+
+    /// Else what lies behind would come through where several of its parts meet in a pixel.
+    bool lies_on_underlay = true;
 };
 
 /// Adds all the rings, whose sides lie on these curves, to the region's outline.
@@ -34,8 +37,9 @@ struct PaintTolerance {
 /// The region with a colour or gradient, or cut by lines into parts that have one each, so that
 /// all agree with the field at samples of that spacing. What is less than a pixel long is not cut,
 /// and may agree less; regions that small have one colour. Parts are to be painted in their order:
-/// each goes on below the later ones by a pixel. The curves are those of the rings' sides. Throws
-/// Cancelled.
+/// each goes on below the later ones by a pixel, and where the region lies on no underlay, all of
+/// it is painted before them, in the paint that fits best. The curves are those of the rings'
+/// sides. Throws Cancelled.
 std::vector<FilledOutline> painted(
     PaintedRegion region,
     const ColorField& field,

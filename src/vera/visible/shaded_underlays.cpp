@@ -21,8 +21,8 @@ namespace vera {
 
 namespace {
 
-/// Of two regions the one goes on below the other, and nothing comes through.
-constexpr std::size_t least_regions = 3;
+/// Of one there is nothing to come through, but where it is cut (PaintedRegion::lies_on_underlay).
+constexpr std::size_t least_regions = 2;
 
 /// By how much an underlay may differ from the light in the middles of regions, 1 for 255. What
 /// comes through of it is a quarter, where two edges share a pixel.
@@ -105,7 +105,7 @@ private:
 
 } // namespace
 
-std::vector<FilledOutline> shaded_underlays(
+ShadedUnderlays shaded_underlays(
     const FillSources& sources,
     const RegionOutlines& regions,
     const Progress& progress,
@@ -129,6 +129,11 @@ std::vector<FilledOutline> shaded_underlays(
     for (std::size_t i = 0; i < regions.count(); ++i)
         samples[areas.of_source[regions.rings(i).front().source]].push_back(middles[i]);
     free_room(middles);
+    ShadedUnderlays all;
+    all.has_one.reserve(regions.count());
+    for (std::size_t i = 0; i < regions.count(); ++i)
+        all.has_one.push_back(
+            samples[areas.of_source[regions.rings(i).front().source]].size() >= least_regions);
     std::vector<std::vector<FilledOutline>> underlays(samples.size());
     long_parallel_loop(samples.size(), stages.next(1), cancel, 1, [&](std::size_t i) {
         if (samples[i].size() < least_regions)
@@ -141,9 +146,8 @@ std::vector<FilledOutline> shaded_underlays(
         painter.paint(rings, samples[i]);
         underlays[i] = painter.take();
     });
-    std::vector<FilledOutline> all;
     for (std::vector<FilledOutline>& of_area : underlays)
-        std::ranges::move(of_area, std::back_inserter(all));
+        std::ranges::move(of_area, std::back_inserter(all.outlines));
     return all;
 }
 
