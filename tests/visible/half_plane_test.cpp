@@ -155,5 +155,17 @@ TEST(SeamStrips, ReachNoFartherThanAThinNeighbour) {
     EXPECT_TRUE(seam_strips(BorderRing{{0, 0}, {0, 0}}, thin).empty());
 }
 
+TEST(SeamStrips, CoverSomethingNarrowThatTheBorderGoesAllTheWayRound) {
+    const BorderRing wedge = {{0, 0}, {10, 0.1}, {10, 0.4}};
+    for (std::size_t first = 0; first < wedge.size(); ++first) {
+        BorderRing border;
+        for (std::size_t i = 0; i <= wedge.size(); ++i)
+            border.push_back(wedge[(first + wedge.size() - i % wedge.size()) % wedge.size()]);
+        const auto strips = seam_strips(border, {wedge});
+        for (const double x : {1.5, 5.0, 9.5})
+            EXPECT_NE(turns_about(strips, {x, 0.025 * x}), 0) << first << ' ' << x;
+    }
+}
+
 } // namespace
 } // namespace vera

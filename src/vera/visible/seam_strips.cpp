@@ -31,6 +31,8 @@ std::size_t end_of_straight(std::span<const BorderPoint> border, std::size_t fir
     for (; last + 1 < border.size(); ++last) {
         const DrawingPoint chord = way_from(border[first], border[last + 1]);
         const double length = std::sqrt(dot(chord, chord));
+        if (!(length > 0)) // all the way round something narrow
+            return last;
         for (std::size_t i = first + 1; i <= last; ++i) {
             const DrawingPoint way = way_from(border[first], border[i]);
             const double along = dot(way, chord);
