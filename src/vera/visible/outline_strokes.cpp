@@ -5,6 +5,7 @@
 #include "vera/base/long_loop.h"
 #include "vera/base/parallel.h"
 #include "vera/base/progress_part.h"
+#include "vera/base/spent_pages.h"
 #include "vera/drawing/elliptic_arc.h"
 #include "vera/visible/curve_parts.h"
 #include "vera/visible/hidden_intersections.h"
@@ -89,14 +90,14 @@ void add_joined_parts(
     }
 }
 
-/// Those of the classes that are drawn.
+/// Those of the classes that are drawn. Where no hidden lines are, nothing asks for the pieces again.
 std::vector<LinePart> visible_parts(
-    const StrokeSources& sources,
+    StrokeSources& sources,
     const LineRules& rules,
     const ExtraLines& extra,
     const CancelFlag* cancel) {
     constexpr std::uint8_t no_class = 255;
-    const std::vector<VisiblePiece>& pieces = sources.pieces.pieces;
+    std::vector<VisiblePiece>& pieces = sources.pieces.pieces;
     std::vector<std::uint8_t> classes(pieces.size());
     parallel_ranges(pieces.size(), 1024, [&](std::size_t first, std::size_t last) {
         stop_if_raised(cancel);
@@ -114,19 +115,25 @@ std::vector<LinePart> visible_parts(
         classes.size()
         - static_cast<std::size_t>(std::count(classes.begin(), classes.end(), no_class))
         + sources.map.joined_sides.size() / 2);
-    const LongLoop loop(pieces.size(), {}, cancel);
-    for (std::size_t i = 0; i < pieces.size(); ++i) {
-        loop.turn(i);
-        if (classes[i] == no_class)
-            continue;
-        LinePart& part = parts.emplace_back();
-        part.ends = {pieces[i].from, pieces[i].to};
-        part.step = step(
-            sources.screen.vertices[pieces[i].edge.begin].point,
-            sources.screen.vertices[pieces[i].edge.end].point);
-        part.line_class = static_cast<LineClass>(classes[i]);
-        part.faces = {face_of(pieces[i].left), face_of(pieces[i].right)};
-        part.is_between_neighbours = rules.is_between_neighbours(pieces[i]);
+    // A few at a time, as the parts may take the room of the pieces before.
+    constexpr std::size_t at_a_time = 65536;
+    for (std::size_t begin = 0; begin < pieces.size(); begin += at_a_time) {
+        stop_if_raised(cancel);
+        const std::size_t end = std::min(pieces.size(), begin + at_a_time);
+        for (std::size_t i = begin; i < end; ++i) {
+            if (classes[i] == no_class)
+                continue;
+            LinePart& part = parts.emplace_back();
+            part.ends = {pieces[i].from, pieces[i].to};
+            part.step = step(
+                sources.screen.vertices[pieces[i].edge.begin].point,
+                sources.screen.vertices[pieces[i].edge.end].point);
+            part.line_class = static_cast<LineClass>(classes[i]);
+            part.faces = {face_of(pieces[i].left), face_of(pieces[i].right)};
+            part.is_between_neighbours = rules.is_between_neighbours(pieces[i]);
+        }
+        if (!extra.hidden)
+            give_back_spent(pieces, begin, end);
     }
     add_joined_parts(sources, rules, parts);
     return parts;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/shaded_underlays.h"
 
-#include "vera/base/free_room.h"
 #include "vera/base/long_loop.h"
 #include "vera/base/progress_part.h"
 #include "vera/visible/covered_areas.h"
@@ -14,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
+#include <numeric>
 #include <span>
 #include <utility>
 
@@ -103,6 +103,33 @@ private:
     std::vector<FilledOutline> underlays_;
 };
 
+/// The regions of each area, in their order.
+class RegionsByArea {
+public:
+    RegionsByArea(const RegionOutlines& regions, const CoveredAreas& areas)
+        : starts_(areas.outlines.size())
+        , numbers_(regions.count()) {
+        const auto area_of = [&](std::size_t region) {
+            return areas.of_source[regions.rings(region).front().source];
+        };
+        for (std::size_t i = 0; i < regions.count(); ++i)
+            ++starts_[area_of(i)];
+        // Where each area ends, until all of its regions are in their places.
+        std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
+        for (std::size_t i = regions.count(); i-- > 0;)
+            numbers_[--starts_[area_of(i)]] = static_cast<std::uint32_t>(i);
+    }
+
+    std::span<const std::uint32_t> of(std::size_t area) const {
+        const std::size_t end = area + 1 < starts_.size() ? starts_[area + 1] : numbers_.size();
+        return std::span(numbers_).subspan(starts_[area], end - starts_[area]);
+    }
+
+private:
+    std::vector<std::uint32_t> starts_; ///< of the areas
+    std::vector<std::uint32_t> numbers_;
+};
+
 } // namespace
 
 ShadedUnderlays shaded_underlays(
@@ -112,7 +139,7 @@ ShadedUnderlays shaded_underlays(
     const CancelFlag* cancel) {
     StageProgress stages(progress, 4);
     const CoveredAreas areas = covered_areas(regions.map(), stages.next(2), cancel);
-    std::vector<ColorSample> middles(regions.count());
+    std::vector<PointColor> middles(regions.count());
     long_parallel_loop(regions.count(), stages.next(1), cancel, 64, [&](std::size_t i) {
         const std::uint32_t face = regions.rings(i).front().source;
         const RegionLight light(
@@ -125,25 +152,27 @@ ShadedUnderlays shaded_underlays(
         const DrawingPoint middle = middle_of(regions.borders(i).front());
         middles[i] = {middle, light(middle)};
     });
-    std::vector<std::vector<ColorSample>> samples(areas.outlines.size());
-    for (std::size_t i = 0; i < regions.count(); ++i)
-        samples[areas.of_source[regions.rings(i).front().source]].push_back(middles[i]);
-    free_room(middles);
+    const RegionsByArea by_area(regions, areas);
     ShadedUnderlays all;
-    all.has_one.reserve(regions.count());
-    for (std::size_t i = 0; i < regions.count(); ++i)
-        all.has_one.push_back(
-            samples[areas.of_source[regions.rings(i).front().source]].size() >= least_regions);
-    std::vector<std::vector<FilledOutline>> underlays(samples.size());
-    long_parallel_loop(samples.size(), stages.next(1), cancel, 1, [&](std::size_t i) {
-        if (samples[i].size() < least_regions)
+    all.has_one.resize(regions.count());
+    for (std::size_t i = 0; i < areas.outlines.size(); ++i)
+        for (const std::uint32_t number : by_area.of(i))
+            all.has_one[number] = by_area.of(i).size() >= least_regions;
+    std::vector<std::vector<FilledOutline>> underlays(areas.outlines.size());
+    long_parallel_loop(underlays.size(), stages.next(1), cancel, 1, [&](std::size_t i) {
+        const std::span<const std::uint32_t> numbers = by_area.of(i);
+        if (numbers.size() < least_regions)
             return;
         std::vector<BorderRing> rings;
         for (const std::vector<std::uint32_t>& way : areas.outlines[i])
             if (BorderRing ring = without_cracks(regions.border(way)); !ring.empty())
                 rings.push_back(std::move(ring));
+        std::vector<ColorSample> samples;
+        samples.reserve(numbers.size());
+        for (const std::uint32_t number : numbers)
+            samples.push_back({middles[number].point, middles[number].color});
         UnderlayPainter painter(sources.color_tolerance, regions.curves().all(), cancel);
-        painter.paint(rings, samples[i]);
+        painter.paint(rings, samples);
         underlays[i] = painter.take();
     });
     for (std::vector<FilledOutline>& of_area : underlays)
