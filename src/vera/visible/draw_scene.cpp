@@ -288,7 +288,8 @@ Drawing painted(Request& request, SeenScene& seen, VisibleMap map) {
             request.cancel,
             drawing);
     if (has_fills(settings.style)) {
-        const FillSources of_fills = {sources, settings.style, settings.color_tolerance};
+        const FillSources of_fills = {
+            sources, settings.style, settings.color_tolerance, &kept->map};
         const Progress progress = request.next_stage(request.times.fills);
         if (settings.outlines == FaceOutlines::later)
             add_later_fills(of_fills, kept, progress, request.cancel, drawing);

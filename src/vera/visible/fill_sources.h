@@ -10,6 +10,7 @@ namespace vera {
 struct FillSources : MapSources {
     DrawingStyle style = DrawingStyle::flat;
     double color_tolerance = 1.0 / 255; ///< of gradients: see PaintTolerance
+    VisibleMap* given_map = nullptr; ///< the same map, where its vertices need not be kept; or null
 };
 
 } // namespace vera

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/outline_fills.h"
 
+#include "vera/base/free_room.h"
 #include "vera/base/long_loop.h"
 #include "vera/base/progress_part.h"
 #include "vera/visible/drawn_borders.h"
@@ -120,6 +121,8 @@ private:
 
     /// The firmament, and what lies below the outlines.
     void start_shaded(StageProgress& stages, const CancelFlag* cancel, Drawing& drawing) {
+        if (sources_.given_map != nullptr)
+            free_room(sources_.given_map->vertices); // their places are known
         DrawnFirmament firmament =
             drawn_firmament(sources_.camera, sources_.picture, tolerance(), cancel);
         drawing.background = firmament.background;
