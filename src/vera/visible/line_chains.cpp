@@ -14,6 +14,7 @@ class Chains {
 public:
     Chains(std::span<const LinePart> parts, LineClass line_class, std::size_t point_count)
         : parts_(parts)
+        , line_class_(line_class)
         , starts_(point_count + 1)
         , is_done_(parts.size()) {
         const auto for_each_end = [&](const auto& visit) {
@@ -26,19 +27,16 @@ public:
         for (std::size_t i = 1; i < starts_.size(); ++i)
             starts_[i] += starts_[i - 1];
         at_vertex_.resize(starts_.back());
-        numbers_.reserve(starts_.back() / 2);
         std::vector<std::uint32_t> next(starts_.begin(), starts_.end() - 1);
         for_each_end(
             [&](std::uint32_t vertex, std::uint32_t part) { at_vertex_[next[vertex]++] = part; });
-        for (std::uint32_t i = 0; i < parts.size(); ++i)
-            if (parts[i].line_class == line_class)
-                numbers_.push_back(i);
+        begin();
     }
 
     std::size_t count() {
         std::size_t count = 0;
         for_each([&](const LineChain&) { ++count; });
-        std::fill(is_done_.begin(), is_done_.end(), std::uint8_t{0});
+        begin();
         return count;
     }
 
@@ -46,13 +44,20 @@ public:
     template <typename Visit>
     void for_each(const Visit& visit) {
         for (const bool from_ends : {true, false})
-            for (const std::uint32_t part : numbers_)
-                for (const std::uint32_t begin : parts_[part].ends)
-                    if (is_done_[part] == 0 && (!from_ends || next_at(begin, part) == no_part))
-                        visit(followed(part, begin));
+            for (std::uint32_t part = 0; part < parts_.size(); ++part)
+                for (std::size_t i = 0; i < 2 && is_done_[part] == 0; ++i)
+                    if (const std::uint32_t first = parts_[part].ends[i];
+                        !from_ends || next_at(first, part) == no_part)
+                        visit(followed(part, first));
     }
 
 private:
+    /// Of other classes all are done.
+    void begin() {
+        for (std::size_t i = 0; i < parts_.size(); ++i)
+            is_done_[i] = parts_[i].line_class == line_class_ ? 0 : 1;
+    }
+
     std::span<const std::uint32_t> at(std::uint32_t vertex) const {
         return std::span(at_vertex_)
             .subspan(starts_[vertex], starts_[vertex + 1] - starts_[vertex]);
@@ -100,7 +105,7 @@ private:
     }
 
     std::span<const LinePart> parts_;
-    std::vector<std::uint32_t> numbers_; ///< of the parts of the class
+    LineClass line_class_;
     std::vector<std::uint32_t> starts_;
     std::vector<std::uint32_t> at_vertex_; ///< the parts that end at each point
     std::vector<std::uint8_t> is_done_;

@@ -323,8 +323,9 @@ public:
         Stroke stroke;
         stroke.line_class = line_class;
         stroke.closed = chain.closed;
+        stroke.points.reserve(point_count(chain));
         for (std::size_t i = 0; i < chain.parts.size(); ++i) {
-            if (i > 0 && are_straight_on(chain.parts[i - 1], chain.parts[i]))
+            if (!has_point(chain, i))
                 continue;
             if (const DrawingArc arc = arc_of(chain, i, stroke.points.size()); is_curved(arc))
                 stroke.arcs.push_back(arc);
@@ -336,6 +337,18 @@ public:
     }
 
 private:
+    /// Whether its part number i does not go straight on from the one before.
+    bool has_point(const LineChain& chain, std::size_t i) const {
+        return i == 0 || !are_straight_on(chain.parts[i - 1], chain.parts[i]);
+    }
+
+    std::size_t point_count(const LineChain& chain) const {
+        std::size_t count = chain.closed ? 0 : 1;
+        for (std::size_t i = 0; i < chain.parts.size(); ++i)
+            count += has_point(chain, i) ? 1 : 0;
+        return count;
+    }
+
     bool are_straight_on(std::uint32_t a, std::uint32_t b) const {
         return parts_[a].curve == no_curve && parts_[b].curve == no_curve
             && cross(parts_[a].step, parts_[b].step) == 0;
