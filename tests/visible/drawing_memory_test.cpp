@@ -336,6 +336,7 @@ TEST(DrawingMemory, ADrawingOfFillsDoesNotHoldItsOutlines) {
         ScreenScene screen;
         double most = 0;        ///< bytes a triangle
         double most_shaded = 0; ///< with underlays as the light is
+        double most_toon = 0;   ///< with lines
     };
 
     const ThreadLimit one(1);
@@ -343,10 +344,14 @@ TEST(DrawingMemory, ADrawingOfFillsDoesNotHoldItsOutlines) {
     picture.width = picture.height = 800;
     picture.shadows = false;
     for (const Sample& sample :
-         {Sample{testing::scattered(1, 30'000, screen_size / 100), 850, 1050}, // 6 pieces each
-          Sample{testing::terrain(1, 120), 480, 510},
-          Sample{testing::balls(1, 20, 30), 400, 400}})
-        for (const DrawingStyle style : {DrawingStyle::flat, DrawingStyle::shaded}) {
+         {Sample{testing::scattered(1, 30'000, screen_size / 100), 850, 820, 950}, // 6 pieces each
+          Sample{testing::terrain(1, 120), 480, 480, 480},
+          Sample{testing::balls(1, 20, 30), 400, 400, 400}})
+        for (const std::pair<DrawingStyle, double>& bound :
+             {std::pair(DrawingStyle::flat, sample.most),
+              std::pair(DrawingStyle::shaded, sample.most_shaded),
+              std::pair(DrawingStyle::toon, sample.most_toon)}) {
+            const DrawingStyle style = bound.first;
             const SceneInView view = in_space(sample.screen);
             const double taken = most_bytes_of([&] {
                 DrawSettings settings;
@@ -356,9 +361,8 @@ TEST(DrawingMemory, ADrawingOfFillsDoesNotHoldItsOutlines) {
                 write_uncommitted(drawn.drawing);
             });
             const auto count = static_cast<double>(sample.screen.triangles.size());
-            const bool is_shaded = style == DrawingStyle::shaded;
-            EXPECT_LT(taken, (is_shaded ? sample.most_shaded : sample.most) * count)
-                << count << " triangles";
+            EXPECT_LT(taken, bound.second * count)
+                << count << " triangles, style " << static_cast<int>(style);
         }
 }
 

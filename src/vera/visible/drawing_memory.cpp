@@ -96,7 +96,7 @@ StyleBytes bytes_of(DrawingStyle style, FaceOutlines outlines) {
         return {.piece = 160, .curved_piece = 630, .region = 770, .curved_region = 20};
     case DrawingStyle::shaded: // curved ones are smooth faces, or facets
         if (are_later)
-            return {.piece = 150, .region_at_hand = 2000};
+            return {.piece = 140, .region_at_hand = 2000};
         return {.piece = 200, .curved_piece = 160, .region = 920, .curved_region = 80};
     case DrawingStyle::ids: // as areas that share their corners
         return {.piece = 75};
@@ -106,9 +106,9 @@ StyleBytes bytes_of(DrawingStyle style, FaceOutlines outlines) {
         return {.piece = 440, .surface = 530, .curved_surface = 150};
     case DrawingStyle::toon:
         if (are_later)
-            return {.piece = 190, .region_at_hand = 1500};
+            return {.piece = 170, .region_at_hand = 1500};
         return {
-            .piece = 315, .curved_piece = 100, .region = 730, .curved_region = 540, .surface = 70};
+            .piece = 295, .curved_piece = 120, .region = 730, .curved_region = 540, .surface = 70};
     }
     return {};
 }
