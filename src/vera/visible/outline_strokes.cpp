@@ -90,7 +90,8 @@ void add_joined_parts(
     }
 }
 
-/// Those of the classes that are drawn. Where no hidden lines are, nothing asks for the pieces again.
+/// Those of the classes that are drawn. Where no hidden lines are, nothing asks for the pieces
+/// again.
 std::vector<LinePart> visible_parts(
     StrokeSources& sources,
     const LineRules& rules,

@@ -85,9 +85,8 @@ VisiblePieces PackedPieces::unpacked() const {
     return list;
 }
 
-void PackedPieces::take_points(std::vector<PackedPoint>& list) {
-    points_.for_each([&](const auto& row) { list.push_back(point_of(row)); });
-    points_ = {};
+PackedPoint PackedPieces::point(std::size_t i) const {
+    return point_of(points_[i]);
 }
 
 } // namespace vera

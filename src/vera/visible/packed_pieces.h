@@ -27,8 +27,9 @@ public:
 
     VisiblePieces unpacked() const;
 
-    /// Moves the points to the end of the list.
-    void take_points(std::vector<PackedPoint>& list);
+    PackedPoint point(std::size_t i) const;
+
+    void forget_points() { points_ = {}; }
 
 private:
     PackedRows<5> points_; ///< RationalPoint

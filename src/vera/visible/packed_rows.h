@@ -34,14 +34,15 @@ public:
                 most[column] = std::max(most[column], row[column]);
             }
         }
-        std::size_t bits_of_a_row = 0;
         for (std::size_t column = 0; column < Columns; ++column) {
             widths_[column] =
                 static_cast<std::size_t>(std::bit_width(most[column] - least_[column]));
-            bits_of_a_row += widths_[column];
+            masks_[column] =
+                widths_[column] == 0 ? 0 : ~std::uint64_t{0} >> (word_bits - widths_[column]);
+            bits_of_a_row_ += widths_[column];
         }
         // One word more, as a number is read from the word in which it begins and the next one.
-        words_.resize(count * bits_of_a_row / word_bits + 2);
+        words_.resize(count * bits_of_a_row_ / word_bits + 2);
         std::size_t bit = 0;
         for (std::size_t i = 0; i < count; ++i) {
             const Row row = row_at(i);
@@ -54,22 +55,21 @@ public:
 
     std::size_t size() const { return count_; }
 
+    Row operator[](std::size_t i) const {
+        Row row;
+        std::size_t bit = i * bits_of_a_row_;
+        for (std::size_t column = 0; column < Columns; ++column) {
+            row[column] = least_[column] + (bits_from(bit) & masks_[column]);
+            bit += widths_[column];
+        }
+        return row;
+    }
+
     /// Calls visit(row) for all rows, one after the other.
     template <typename Visit>
     void for_each(const Visit& visit) const {
-        Row masks = {};
-        for (std::size_t column = 0; column < Columns; ++column)
-            masks[column] =
-                widths_[column] == 0 ? 0 : ~std::uint64_t{0} >> (word_bits - widths_[column]);
-        std::size_t bit = 0;
-        for (std::size_t i = 0; i < count_; ++i) {
-            Row row;
-            for (std::size_t column = 0; column < Columns; ++column) {
-                row[column] = least_[column] + (bits_from(bit) & masks[column]);
-                bit += widths_[column];
-            }
-            visit(row);
-        }
+        for (std::size_t i = 0; i < count_; ++i)
+            visit((*this)[i]);
     }
 
     /// Bytes that it takes.
@@ -92,7 +92,9 @@ private:
     }
 
     std::size_t count_ = 0;
+    std::size_t bits_of_a_row_ = 0;
     Row least_ = {};
+    Row masks_ = {};
     std::array<std::size_t, Columns> widths_ = {}; ///< bits
     std::vector<std::uint64_t> words_;
 };

@@ -16,19 +16,66 @@ namespace vera {
 
 namespace {
 
-/// Leaves each point once, in the order in which they come. Returns of each point which of those
-/// it is.
-std::vector<std::uint32_t> numbers_of_points(std::vector<PackedPoint>& points) {
-    std::vector<std::uint32_t> numbers = first_equal(
-        points.size(),
-        [&](std::size_t i) { return hash_of(points[i]); },
-        [&](std::size_t i, std::size_t j) { return points[i] == points[j]; });
+/// The points of the parts by one number, as if they stood one part's behind the other's.
+class PartedPoints {
+public:
+    explicit PartedPoints(const std::vector<SeenPart>& parts)
+        : parts_(parts) {
+        for (const SeenPart& part : parts)
+            starts_.push_back(starts_.back() + part.points());
+        for (std::size_t part = 0, i = 0; i < count(); i += block) {
+            while (starts_[part + 1] <= i)
+                ++part;
+            part_of_block_.push_back(part);
+        }
+    }
+
+    std::size_t count() const { return starts_.back(); }
+
+    /// With which number the part begins.
+    std::size_t start(std::size_t part) const { return starts_[part]; }
+
+    PackedPoint operator[](std::size_t i) const {
+        std::size_t part = part_of_block_[i / block];
+        while (starts_[part + 1] <= i)
+            ++part;
+        return parts_[part].point(i - starts_[part]);
+    }
+
+private:
+    static constexpr std::size_t block = 1024; ///< points: hardly as many as a part has
+
+    const std::vector<SeenPart>& parts_;
+    std::vector<std::size_t> starts_ = {0};
+    std::vector<std::size_t> part_of_block_; ///< in which each block's first point is
+};
+
+/// The points of the parts, each once, in the order in which they come; numbers tells which of them
+/// each is. Takes them out of the parts. room_beside(count) is that for others behind them.
+template <typename RoomBeside>
+std::vector<PackedPoint> joined_points(
+    const PartedPoints& parted,
+    std::vector<SeenPart>& parts,
+    std::vector<std::uint32_t>& numbers,
+    FreedBlocks& freed,
+    const RoomBeside& room_beside) {
+    numbers = first_equal(
+        parted.count(),
+        [&](std::size_t i) { return hash_of(parted[i]); },
+        [&](std::size_t i, std::size_t j) { return parted[i] == parted[j]; });
     const std::vector<std::uint32_t> firsts = number_consecutively(numbers);
-    for (std::size_t i = 0; i < firsts.size(); ++i)
-        points[i] = points[firsts[i]];
-    points.resize(firsts.size());
-    give_back_unused(points);
-    return numbers;
+    std::vector<PackedPoint> points;
+    points.reserve(firsts.size() + room_beside(firsts.size()));
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const std::size_t start = parted.start(i);
+        for (const std::size_t end = parted.start(i + 1);
+             points.size() < firsts.size() && firsts[points.size()] < end;)
+            points.push_back(parts[i].point(firsts[points.size()] - start));
+        const std::size_t before = parts[i].room();
+        parts[i].forget_points();
+        freed.count(before - parts[i].room());
+    }
+    return points;
 }
 
 /// Lets the vector grow to that size, where it has no room for it in a room of that size alone.
@@ -113,34 +160,27 @@ void for_each_merged(const VisiblePieces& before, const VisiblePieces& found, co
 } // namespace
 
 VisiblePieces joined(std::vector<SeenPart> parts, std::size_t others) {
-    std::size_t points = 0;
+    const PartedPoints parted(parts);
     std::size_t pieces = 0;
     std::size_t unlit = 0;
     for (const SeenPart& part : parts) {
-        points += part.points();
         pieces += part.size();
         unlit += part.unlit();
     }
     FreedBlocks freed;
     VisiblePieces result;
-    // With as many of another piece as here.
-    result.points.reserve(points + (pieces == 0 ? 0 : points * others / pieces));
-    std::vector<std::size_t> starts; // of the parts' points
-    for (SeenPart& part : parts) {
-        const std::size_t before = part.room();
-        starts.push_back(result.points.size());
-        part.take_points(result.points);
-        freed.count(before - part.room());
-    }
-    const std::vector<std::uint32_t> numbers = numbers_of_points(result.points);
+    std::vector<std::uint32_t> numbers;
+    result.points = joined_points(parted, parts, numbers, freed, [&](std::size_t points) {
+        return pieces == 0 ? 0 : points * others / pieces; // as many of a piece as here
+    });
     result.pieces.reserve(pieces + others);
     result.unlit.reserve(unlit == 0 ? 0 : unlit + others);
     for (std::size_t i = 0; i < parts.size(); ++i) {
         freed.count(parts[i].room());
         const VisiblePieces list = parts[i].take();
         for (VisiblePiece piece : list.pieces) {
-            piece.from = numbers[starts[i] + piece.from];
-            piece.to = numbers[starts[i] + piece.to];
+            piece.from = numbers[parted.start(i) + piece.from];
+            piece.to = numbers[parted.start(i) + piece.to];
             result.pieces.push_back(piece);
         }
         result.unlit.insert(result.unlit.end(), list.unlit.begin(), list.unlit.end());

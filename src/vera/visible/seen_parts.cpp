@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/visible/seen_parts.h"
 
+#include "vera/base/free_room.h"
 #include "vera/base/parallel.h"
 #include "vera/visible/point_numbers.h"
 
@@ -71,14 +72,17 @@ VisiblePieces SeenPart::take() {
     return list;
 }
 
-void SeenPart::take_points(std::vector<PackedPoint>& list) {
-    if (auto* packed = std::get_if<PackedPieces>(&pieces_)) {
-        packed->take_points(list);
-        return;
-    }
-    std::vector<PackedPoint> points;
-    points.swap(std::get<VisiblePieces>(pieces_).points);
-    list.insert(list.end(), points.begin(), points.end());
+PackedPoint SeenPart::point(std::size_t i) const {
+    if (const auto* packed = std::get_if<PackedPieces>(&pieces_))
+        return packed->point(i);
+    return std::get<VisiblePieces>(pieces_).points[i];
+}
+
+void SeenPart::forget_points() {
+    if (auto* packed = std::get_if<PackedPieces>(&pieces_))
+        packed->forget_points();
+    else
+        free_room(std::get<VisiblePieces>(pieces_).points);
 }
 
 std::vector<SeenPart> parts_of(const VisiblePieces& list) {

@@ -47,8 +47,9 @@ public:
     /// Leaves nothing.
     VisiblePieces take();
 
-    /// Moves the points to the end of the list.
-    void take_points(std::vector<PackedPoint>& list);
+    PackedPoint point(std::size_t i) const;
+
+    void forget_points();
 
     std::vector<std::pair<std::uint32_t, std::uint32_t>> penetrating;
 
