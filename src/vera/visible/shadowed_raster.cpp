@@ -35,8 +35,10 @@ public:
     template <typename Visit>
     void for_each_beside(ScreenEdges::Edge edge, const Visit& visit) {
         for (; part_ < before_.size(); ++part_, next_ = 0) {
-            if (next_ == 0)
+            if (listed_ != part_) {
                 list_ = before_[part_].list();
+                listed_ = part_;
+            }
             for (; next_ < list_.pieces.size(); ++next_) {
                 const VisiblePiece& piece = list_.pieces[next_];
                 if (edge < piece.edge)
@@ -54,7 +56,8 @@ private:
     const ScreenScene& screen_;
     const std::vector<SeenPart>& before_;
     std::size_t part_ = 0;
-    VisiblePieces list_;   ///< of the part
+    VisiblePieces list_; ///< of the part listed_
+    std::size_t listed_ = ~std::size_t{0};
     std::size_t next_ = 0; ///< of its pieces
 };
 
@@ -71,8 +74,10 @@ public:
     take(std::span<const ScreenEdges::Edge> edges, std::span<const std::uint8_t> is_near_change) {
         std::vector<SeenPart> all;
         for (std::size_t edge = 0; part_ < before_.size() && !edges.empty();) {
-            if (next_ == 0)
+            if (listed_ != part_) {
                 list_ = before_[part_].list();
+                listed_ = part_;
+            }
             VisiblePieces taken;
             PieceCopy copy(list_, taken);
             for (; next_ < list_.pieces.size(); ++next_) {
@@ -101,7 +106,8 @@ private:
     PieceStorage storage_;
     FreedBlocks freed_;
     std::size_t part_ = 0;
-    VisiblePieces list_;   ///< of the part
+    VisiblePieces list_; ///< of the part listed_
+    std::size_t listed_ = ~std::size_t{0};
     std::size_t next_ = 0; ///< of its pieces
 };
 
