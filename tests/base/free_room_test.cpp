@@ -50,5 +50,22 @@ TEST(FreeRoom, OfFreedBlocksBetweenOthersIsGivenBack) {
     EXPECT_LT(held_bytes() - before, 0.6 * blocks * block);
 }
 
+TEST(FreeRoom, OfManySmallBlocksIsGivenBackWhereMemoryIsSpared) {
+    if (memory_is_watched())
+        GTEST_SKIP() << "a sanitizer keeps memory for itself";
+    spare_memory();
+    constexpr std::size_t block = 50'000;
+    constexpr std::size_t blocks = 800;
+    const double before = held_bytes();
+    std::vector<std::unique_ptr<std::vector<char>>> kept;
+    for (std::size_t i = 0; i <= blocks; ++i)
+        kept.push_back(std::make_unique<std::vector<char>>(block, 'a'));
+    for (std::size_t i = 0; i < blocks; ++i) // the last one lies behind all that are freed
+        kept[i].reset();
+    EXPECT_GT(held_bytes() - before, 0.9 * blocks * block);
+    give_back_freed_memory();
+    EXPECT_LT(held_bytes() - before, 0.1 * blocks * block);
+}
+
 } // namespace
 } // namespace vera

@@ -10,6 +10,7 @@
 #include <numeric>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "base/memory_is_watched.h"
@@ -79,6 +80,25 @@ TEST(LargePages, AreAskedForWhereABlockIsLarge) {
     const std::unique_ptr<void, decltype(&std::free)> block(std::malloc(bytes), &std::free);
     prefer_large_pages_for_block(block.get(), bytes);
     const std::string flags = flags_of_pages_at(block.get());
+    if (flags.empty())
+        GTEST_SKIP() << "this system does not tell";
+    EXPECT_NE(flags.find(" hg "), std::string::npos) << flags;
+}
+
+TEST(LargePages, AreAskedForWhereAThreadHasAHeap) {
+    if (memory_is_watched())
+        GTEST_SKIP() << "a sanitizer has a heap of its own";
+    if (!std::ifstream("/sys/kernel/mm/transparent_hugepage/enabled"))
+        GTEST_SKIP() << "this system has no large pages";
+    const auto flags_behind_block = [] {
+        constexpr std::size_t bytes = 1000;
+        const std::unique_ptr<char, decltype(&std::free)> block(
+            static_cast<char*>(std::malloc(bytes)), &std::free);
+        prefer_large_pages_for_block(block.get(), bytes);
+        return flags_of_pages_at(block.get() + bytes + 4096);
+    };
+    std::string flags;
+    std::thread([&] { flags = flags_behind_block(); }).join();
     if (flags.empty())
         GTEST_SKIP() << "this system does not tell";
     EXPECT_NE(flags.find(" hg "), std::string::npos) << flags;

@@ -13,15 +13,18 @@ void free_room(std::vector<T>& vector) {
 
 /// From now on the whole process gives back to the system each block of 2 MiB or more as soon as it
 /// is freed. (The C library of GNU, if left alone, comes to keep blocks of up to 32 MiB, between
-/// others that are in use, for the next ones that fit.) What is smaller, and up to 4 MiB behind the
-/// last block in use, is kept for the next ones: to ask the system for it anew takes longer than to
-/// fill it.
+/// others that are in use, for the next ones that fit.)
 void give_back_freed_blocks();
 
-/// Gives what was freed, but is kept to be used again, back to the system where it is more than
-/// 16 MiB: less is soon used again, and large pages of which a part is given back become small
-/// ones. For the moment after much was freed in small blocks, and before much is needed in large
-/// ones.
+/// For work that takes so much memory that it is worth time, before it: give_back_freed_memory()
+/// gives something back from now on, and where the process has called give_back_freed_blocks(), no
+/// more than 4 MiB are kept behind the last block in use.
+void spare_memory();
+
+/// After spare_memory(): gives what was freed, but is kept to be used again, back to the system
+/// where it is more than 16 MiB: less is soon used again, and large pages of which a part is given
+/// back become small ones. For the moment after much was freed in small blocks, and before much is
+/// needed in large ones.
 void give_back_freed_memory();
 
 } // namespace vera

@@ -63,7 +63,8 @@ void prefer_large_pages(const void* first, std::size_t bytes, Written written) n
 
 void begin_heap_in_large_pages() noexcept {
 #ifdef __GLIBC__
-    constexpr int room = 4 * static_cast<int>(large_page);
+    constexpr int room = 16 * static_cast<int>(large_page);
+    constexpr int more_room = 4 * static_cast<int>(large_page);
     constexpr int usual_room = 1 << 17;
     mallopt(M_MMAP_THRESHOLD, static_cast<int>(large_page));
     mallopt(M_TRIM_THRESHOLD, 2 * room); // or the room would be given back with the first block
@@ -80,7 +81,7 @@ void begin_heap_in_large_pages() noexcept {
     unused_too = std::malloc(large_page - end % large_page);
     if (unused_too != nullptr)
         prefer_large_pages(unused_too, room, Written::nothing);
-    mallopt(M_TOP_PAD, 2 * static_cast<int>(large_page)); // or it would grow by small pages
+    mallopt(M_TOP_PAD, more_room); // or it, and the heaps of threads, would grow by small pages
 #endif
 }
 
@@ -94,17 +95,29 @@ void share_heap_among_threads() noexcept {
 
 void prefer_large_pages_for_block(const void* block, std::size_t bytes) noexcept {
 #if defined(__GLIBC__) && defined(__linux__)
-    constexpr std::size_t small = std::size_t{1} << 16U; // these are many
-    if (bytes < small)
-        return;
+    // The part of a heap that this thread knows to have been asked for; there most blocks lie.
+    thread_local std::uintptr_t known = 0;
+    thread_local std::uintptr_t known_end = 0;
     const auto first = reinterpret_cast<std::uintptr_t>(block);
+    const std::uintptr_t last = first + bytes;
+    if (known <= first && last <= known_end)
+        return;
     if (bytes >= large_page)
-        return prefer_large_pages_between(first, first + bytes);
-    static std::atomic<std::uintptr_t> end_before = 0;          // of the heap
+        return prefer_large_pages_between(first, last);
     const auto end = reinterpret_cast<std::uintptr_t>(sbrk(0)); // which asks no system
-    const std::uintptr_t before = end_before.exchange(end, std::memory_order_relaxed);
-    if (before != 0 && before < end)
-        prefer_large_pages_between(before, end);
+    if (first < end) { // the heap that the process began with
+        static std::atomic<std::uintptr_t> end_before = 0;
+        const std::uintptr_t before = end_before.exchange(end, std::memory_order_relaxed);
+        if (before != 0 && before < end)
+            prefer_large_pages_between(before, end);
+        known = 0;
+        known_end = end;
+    } else { // a thread's, in the room that GNU's library reserves for each
+        constexpr std::uintptr_t heap_room = std::uintptr_t{1} << 26U;
+        known = first / heap_room * heap_room;
+        known_end = known + heap_room;
+        prefer_large_pages_between(first, known_end);
+    }
 #else
     (void)block;
     (void)bytes;

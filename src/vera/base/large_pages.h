@@ -15,8 +15,8 @@ enum class Written { all, nothing };
 void prefer_large_pages(const void* first, std::size_t bytes, Written written) noexcept;
 
 /// For a program to call first: lets the heap go on at the start of a large page, with room for
-/// three, each of which is taken when it is first written. Otherwise a page of 4 KiB is taken at a
-/// time, and to be handed a few hundred of them is a large part of the time of a small picture.
+/// fifteen, each of which is taken when it is first written. Otherwise a page of 4 KiB is taken at
+/// a time, and to be handed a few hundred of them is a large part of the time of a small picture.
 /// Blocks of less than 2 MiB come from there; larger ones are given back to the system as soon as
 /// they are freed. Nothing is done where the C library is not GNU's.
 void begin_heap_in_large_pages() noexcept;
@@ -26,8 +26,9 @@ void begin_heap_in_large_pages() noexcept;
 /// least.
 void share_heap_among_threads() noexcept;
 
-/// Asks for large pages for a block that malloc() has just made, and for what the heap grew by
-/// since it was last asked: for a program's operator new. Small blocks are passed over.
+/// Asks for large pages for a block that malloc() has just made: for a program's operator new. Of a
+/// smaller block than 2 MiB they are asked for the heap that it lies in, where that is a thread's
+/// or has grown.
 void prefer_large_pages_for_block(const void* block, std::size_t bytes) noexcept;
 
 } // namespace vera

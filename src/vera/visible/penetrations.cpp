@@ -206,6 +206,9 @@ WholePieces whole_pieces(
     const CancelFlag* cancel,
     VisibilityEngine engine,
     const ExpectPieces& expect) {
+    constexpr std::size_t many = std::size_t{1} << 15U;
+    if (scene.triangles.size() >= many) // of fewer, all there is takes little memory
+        spare_memory();
     constexpr int most_rounds = 24;
     // Where each passes through each, cutting all would take the square of their number.
     const std::size_t most_triangles = 16 * scene.triangles.size() + 100'000;
