@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <deque>
+#include <memory>
 #include <span>
 #include <stdexcept>
 #include <utility>
@@ -18,7 +18,35 @@ namespace vera::detail {
 
 namespace {
 
-using Nodes = std::deque<BinaryNode>; // which stay where they are while others are added
+/// Nodes that stay where they are while others are added.
+class Nodes {
+public:
+    BinaryNode& add() {
+        if (used_of_last_ == block_size) {
+            blocks_.push_back(std::make_unique<Block>());
+            used_of_last_ = 0;
+        }
+        return (*blocks_.back())[used_of_last_++];
+    }
+
+    const BinaryNode& front() const { return blocks_.front()->front(); }
+
+    /// Calls turn(node) for each, the last that was added first.
+    template <typename Turn>
+    void for_each_backwards(const Turn& turn) {
+        std::size_t used = used_of_last_;
+        for (std::size_t i = blocks_.size(); i-- > 0; used = block_size)
+            for (std::size_t j = used; j-- > 0;)
+                turn((*blocks_[i])[j]);
+    }
+
+private:
+    static constexpr std::size_t block_size = 64;
+    using Block = std::array<BinaryNode, block_size>;
+
+    std::vector<std::unique_ptr<Block>> blocks_;
+    std::size_t used_of_last_ = block_size;
+};
 
 /// A part of the tree that is cut up later, on any thread.
 struct Deferred {
@@ -53,7 +81,7 @@ public:
         constexpr std::size_t least = 2048;
         const std::size_t subtree_size = std::max(least, references_.size() / subtrees);
         std::vector<Deferred> deferred;
-        BinaryNode& root = top_.emplace_back();
+        BinaryNode& root = top_.add();
         const ReferenceRange all = range_of(references_, 0, references_.size());
         grow(root, all, 0, {top_, subtree_size, &deferred});
         below_.resize(deferred.size());
@@ -66,7 +94,7 @@ public:
             }
         });
         // Children stand behind their parents.
-        std::for_each(top_.rbegin(), top_.rend(), [](BinaryNode& node) {
+        top_.for_each_backwards([](BinaryNode& node) {
             if (!node.is_leaf())
                 finish(node);
         });
@@ -148,7 +176,7 @@ private:
         }
         const auto [left, right] = halves(range, depth);
         for (BinaryNode*& child : node.children) {
-            child = &part.nodes.emplace_back();
+            child = &part.nodes.add();
             child->parent = &node;
         }
         grow(*node.children[0], left, depth + 1, part);

@@ -120,11 +120,15 @@ Sides sides_of(std::span<BoxReference> references, const Binning& binning, const
 
 ReferenceRange
 range_of(std::span<const BoxReference> references, std::size_t first, std::size_t last) {
-    std::vector<ReferenceRange> parts(part_count(last - first));
+    ReferenceRange range = {first, last, empty_box, empty_box};
+    if (range.size() <= part_size) {
+        include(references.subspan(first, range.size()), range.box, range.middles);
+        return range;
+    }
+    std::vector<ReferenceRange> parts(part_count(range.size()));
     for_parts(first, last, [&](std::size_t i, std::size_t begin, std::size_t end) {
         include(references.subspan(begin, end - begin), parts[i].box, parts[i].middles);
     });
-    ReferenceRange range = {first, last, empty_box, empty_box};
     for (const ReferenceRange& part : parts) {
         include(range.box, part.box);
         include(range.middles, part.middles);

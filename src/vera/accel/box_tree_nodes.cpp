@@ -77,13 +77,18 @@ float yield(const BinaryNode& node) {
     return hits > 0 ? hits : 0; // where surfaces are 0, or infinite, it may be no number
 }
 
-/// Puts them in the order for rays that ask for anything.
+/// Puts them in the order for rays that ask for anything. They are few: std::stable_sort would ask
+/// for memory.
 void put_in_order(Children& children) {
     const auto first = children.nodes.begin();
-    std::stable_sort(
-        first,
-        first + static_cast<std::ptrdiff_t>(children.count),
-        [](const BinaryNode* a, const BinaryNode* b) { return yield(*a) > yield(*b); });
+    const auto last = first + static_cast<std::ptrdiff_t>(children.count);
+    for (auto next = first; next != last; ++next) {
+        const auto place =
+            std::upper_bound(first, next, *next, [](const BinaryNode* a, const BinaryNode* b) {
+                return yield(*a) > yield(*b);
+            });
+        std::rotate(place, next, next + 1);
+    }
 }
 
 /// A child that is made later, on any thread.
