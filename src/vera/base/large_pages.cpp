@@ -2,6 +2,7 @@
 #include "vera/base/large_pages.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <cstdint>
@@ -95,29 +96,32 @@ void share_heap_among_threads() noexcept {
 
 void prefer_large_pages_for_block(const void* block, std::size_t bytes) noexcept {
 #if defined(__GLIBC__) && defined(__linux__)
-    // The part of a heap that this thread knows to have been asked for; there most blocks lie.
-    thread_local std::uintptr_t known = 0;
-    thread_local std::uintptr_t known_end = 0;
     const auto first = reinterpret_cast<std::uintptr_t>(block);
     const std::uintptr_t last = first + bytes;
-    if (known <= first && last <= known_end)
+    // The heap that the process began with lies below all others. It may have become shorter, and
+    // be asked again now and then.
+    static std::atomic<std::uintptr_t> known_end = 0;
+    constexpr std::size_t small = std::size_t{1} << 16U; // these are many
+    if (bytes < small && last <= known_end.load(std::memory_order_relaxed))
         return;
     if (bytes >= large_page)
         return prefer_large_pages_between(first, last);
     const auto end = reinterpret_cast<std::uintptr_t>(sbrk(0)); // which asks no system
-    if (first < end) { // the heap that the process began with
-        static std::atomic<std::uintptr_t> end_before = 0;
-        const std::uintptr_t before = end_before.exchange(end, std::memory_order_relaxed);
+    if (first < end) {
+        const std::uintptr_t before = known_end.exchange(end, std::memory_order_relaxed);
         if (before != 0 && before < end)
             prefer_large_pages_between(before, end);
-        known = 0;
-        known_end = end;
-    } else { // a thread's, in the room that GNU's library reserves for each
-        constexpr std::uintptr_t heap_room = std::uintptr_t{1} << 26U;
-        known = first / heap_room * heap_room;
-        known_end = known + heap_room;
-        prefer_large_pages_between(first, known_end);
+        return;
     }
+    // Heaps of threads; a block of one may be used again by another thread.
+    constexpr std::uintptr_t heap_room = std::uintptr_t{1} << 26U; // of GNU's library
+    static std::array<std::atomic<std::uintptr_t>, 64> known_heaps = {};
+    const std::uintptr_t heap = first / heap_room;
+    std::atomic<std::uintptr_t>& known = known_heaps[heap % known_heaps.size()];
+    if (known.load(std::memory_order_relaxed) == heap)
+        return;
+    known.store(heap, std::memory_order_relaxed);
+    prefer_large_pages_between(first, (heap + 1) * heap_room);
 #else
     (void)block;
     (void)bytes;
