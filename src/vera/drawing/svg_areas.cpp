@@ -19,6 +19,12 @@ public:
         , lattice_(lattice) {}
 
     void write(std::size_t first, std::size_t last) {
+        // About as much as there will be: what grows is copied again and again.
+        constexpr std::size_t bytes_of_area = 32;
+        constexpr std::size_t bytes_of_corner = 12;
+        text_.reserve(
+            bytes_of_area * (last - first)
+            + bytes_of_corner * (first_corner_of(last) - first_corner_of(first)));
         for (std::size_t area = first; area < last; ++area)
             write(area);
     }
@@ -26,6 +32,11 @@ public:
     std::string take() { return std::move(text_); }
 
 private:
+    std::size_t first_corner_of(std::size_t area) const {
+        const std::uint32_t ring = area == 0 ? 0 : areas_.area_ends[area - 1];
+        return ring == 0 ? 0 : areas_.ring_ends[ring - 1];
+    }
+
     void write(std::size_t area) {
         const std::size_t begin = text_.size();
         text_ += "<path fill=\"";
@@ -77,13 +88,9 @@ std::string css_color(DrawingColor color) {
     return text;
 }
 
-void add_svg_areas(
-    const SharedAreas& areas,
-    const Lattice& lattice,
-    std::size_t first,
-    std::size_t last,
-    std::string& text) {
-    constexpr std::size_t part = 512; // areas that a thread writes at a time
+std::vector<std::string>
+svg_areas(const SharedAreas& areas, const Lattice& lattice, std::size_t first, std::size_t last) {
+    constexpr std::size_t part = 256; // areas that a thread writes at a time
     std::vector<std::string> parts((last - first + part - 1) / part);
     parallel_ranges(parts.size(), 1, [&](std::size_t number, std::size_t) {
         AreaWriter writer(areas, lattice);
@@ -91,14 +98,7 @@ void add_svg_areas(
         writer.write(first + number * part, end);
         parts[number] = writer.take();
     });
-    std::size_t size = text.size();
-    for (const std::string& one : parts)
-        size += one.size();
-    text.reserve(size);
-    for (std::string& one : parts) {
-        text += one;
-        std::string().swap(one);
-    }
+    return parts;
 }
 
 } // namespace vera::detail

@@ -9,20 +9,17 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 namespace vera::detail {
 
 /// "#rgb" where that says it, else "#rrggbb".
 std::string css_color(DrawingColor color);
 
-/// Adds a path for each of the areas from number first to before last of which something is left
-/// after rounding, as outline_of() them would be written.
-void add_svg_areas(
-    const SharedAreas& areas,
-    const Lattice& lattice,
-    std::size_t first,
-    std::size_t last,
-    std::string& text);
+/// A path for each of the areas from number first to before last of which something is left after
+/// rounding, as outline_of() them would be written: in parts, one behind the other.
+std::vector<std::string>
+svg_areas(const SharedAreas& areas, const Lattice& lattice, std::size_t first, std::size_t last);
 
 /// As write_svg(), into a file, part by part; into a pipe all at the end, in parts as well. The
 /// caller commits.

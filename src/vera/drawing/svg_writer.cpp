@@ -338,8 +338,8 @@ private:
         for (std::size_t first = 0; first < areas.count();) {
             tell(done + first);
             const std::size_t last = end_of_block(areas, first);
-            add_svg_areas(areas, lattice_, first, last, text_);
-            pass_on();
+            std::vector<std::string> parts = svg_areas(areas, lattice_, first, last);
+            write_parts(parts);
             first = last;
         }
         if (layers_.is_filled)
