@@ -23,7 +23,7 @@ random_vertices(std::uint32_t seed, std::size_t count, std::uint32_t values) {
 TEST(FirstEqual, IsWhatComparingWithAllBeforeFinds) {
     for (std::uint32_t seed = 0; seed < 20; ++seed) {
         const std::vector<ScreenVertex> things = random_vertices(seed, 40 * seed, 9);
-        const std::vector<std::uint32_t> first = first_equal(
+        const UnfilledVector<std::uint32_t> first = first_equal(
             things.size(),
             [&](std::size_t i) { return hash_of(things[i]); },
             [&](std::size_t i, std::size_t j) { return things[i] == things[j]; });
@@ -35,7 +35,7 @@ TEST(FirstEqual, IsWhatComparingWithAllBeforeFinds) {
 }
 
 TEST(FirstEqual, TellsThingsOfTheSameHashApart) {
-    const std::vector<std::uint32_t> first = first_equal(
+    const UnfilledVector<std::uint32_t> first = first_equal(
         1000,
         [](std::size_t) { return std::uint64_t{7}; },
         [](std::size_t i, std::size_t j) { return i % 30 == j % 30; });
@@ -46,7 +46,7 @@ TEST(FirstEqual, TellsThingsOfTheSameHashApart) {
 TEST(FirstEqual, NumbersManyAsOneAfterTheOtherDoes) {
     // Enough for several blocks and parts.
     const std::vector<ScreenVertex> things = random_vertices(1, 300'000, 200);
-    std::vector<std::uint32_t> numbers = first_equal(
+    UnfilledVector<std::uint32_t> numbers = first_equal(
         things.size(),
         [&](std::size_t i) { return hash_of(things[i]); },
         [&](std::size_t i, std::size_t j) { return things[i] == things[j]; });

@@ -6,9 +6,9 @@
 namespace vera {
 
 /// Empties a vector and gives its memory back, which clear() and = {} do not.
-template <typename T>
-void free_room(std::vector<T>& vector) {
-    std::vector<T>().swap(vector);
+template <typename T, typename Allocator>
+void free_room(std::vector<T, Allocator>& vector) {
+    std::vector<T, Allocator>().swap(vector);
 }
 
 /// From now on the whole process gives back to the system each block of 2 MiB or more as soon as it

@@ -30,11 +30,18 @@ void for_each_cell_of_points(
 std::vector<std::uint8_t>
 cells_of_change(const SceneChange& change, const CellRaster& raster, const Cells& cells) {
     std::vector<std::uint8_t> is_changed(cells.blocked.size());
-    const auto mark = [&](std::size_t cell) { is_changed[cell] = 1; };
-    for (const std::uint32_t triangle : change.triangles)
-        for_each_cell_of(cells, corners_of(raster.scene, raster.scene.triangles[triangle]), mark);
-    for (const std::array<ScreenVertex, 3>& corners : change.places)
-        for_each_cell_of(cells, corners, mark);
+    const auto mark = [&](std::size_t cell) { mark_from_any_thread(is_changed[cell]); };
+    constexpr std::size_t block = 1024; // triangles that a thread takes at a time
+    parallel_ranges(change.triangles.size(), block, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            const ScreenTriangle& triangle = raster.scene.triangles[change.triangles[i]];
+            for_each_cell_of(cells, corners_of(raster.scene, triangle), mark);
+        }
+    });
+    parallel_ranges(change.places.size(), block, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+            for_each_cell_of(cells, change.places[i], mark);
+    });
     for_each_cell_of_points(change.asked, cells, mark);
     return is_changed;
 }

@@ -129,19 +129,21 @@ nearness_of_edges(const CellRaster& raster, std::size_t first_triangle, std::siz
 std::vector<std::uint8_t> cells_along(
     const std::vector<std::uint8_t>& is_edge_asked, const CellRaster& raster, const Cells& cells) {
     std::vector<std::uint8_t> is_asked(cells.blocked.size());
-    for (std::size_t i = 0; i < is_edge_asked.size(); ++i) {
-        if (is_edge_asked[i] == 0)
-            continue;
-        const auto& [begin, end] = raster.edges.edges[i];
-        for_each_cell_along(
-            cells,
-            raster.scene.vertices[begin].point,
-            raster.scene.vertices[end].point,
-            [&](std::size_t cell) {
-                is_asked[cell] = 1;
-                return true;
-            });
-    }
+    parallel_ranges(is_edge_asked.size(), 2048, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            if (is_edge_asked[i] == 0)
+                continue;
+            const auto& [begin, end] = raster.edges.edges[i];
+            for_each_cell_along(
+                cells,
+                raster.scene.vertices[begin].point,
+                raster.scene.vertices[end].point,
+                [&](std::size_t cell) {
+                    mark_from_any_thread(is_asked[cell]);
+                    return true;
+                });
+        }
+    });
     return is_asked;
 }
 

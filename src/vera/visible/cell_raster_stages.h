@@ -11,6 +11,7 @@
 #include "vera/visible/sheets.h"
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -32,6 +33,14 @@ CellRaster raster_of(
     const AskedOfRaster& asked,
     const Progress& progress,
     const CancelFlag* cancel);
+
+/// Marks a byte that other threads may mark as well. Most are marked already, and are not taken
+/// from another thread's cache to be written anew.
+inline void mark_from_any_thread(std::uint8_t& byte) {
+    const std::atomic_ref<std::uint8_t> shared(byte);
+    if (shared.load(std::memory_order_relaxed) == 0)
+        shared.store(1, std::memory_order_relaxed);
+}
 
 /// The cells along the edges that are asked for.
 std::vector<std::uint8_t> cells_along(

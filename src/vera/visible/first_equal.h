@@ -2,11 +2,13 @@
 #pragma once
 
 #include "vera/base/long_loop.h"
+#include "vera/base/unfilled_vector.h"
 
 #include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace vera {
@@ -16,7 +18,7 @@ namespace vera {
 /// Naughton 1994): each part fits into a cache, and threads share them. Takes 12 bytes a thing.
 /// Throws Cancelled.
 template <typename HashOf, typename AreEqual>
-std::vector<std::uint32_t> first_equal(
+UnfilledVector<std::uint32_t> first_equal(
     std::size_t count,
     const HashOf& hash_of,
     const AreEqual& are_equal,
@@ -27,7 +29,8 @@ std::vector<std::uint32_t> first_equal(
     };
 
     constexpr std::size_t most_of_a_part = 4096;
-    constexpr std::size_t block = 65536; // things whose parts are counted together
+    // Things whose parts are counted together: few enough that all threads have some.
+    const std::size_t block = std::clamp<std::size_t>(count / 64, 4096, 65536);
     const int part_bits =
         std::clamp(static_cast<int>(std::bit_width(count / most_of_a_part)), 0, 12);
     const std::size_t parts = std::size_t{1} << part_bits;
@@ -49,7 +52,7 @@ std::vector<std::uint32_t> first_equal(
     });
     for (std::size_t i = 1; i < starts.size(); ++i)
         starts[i] += starts[i - 1];
-    std::vector<Hashed> parted(count);
+    UnfilledVector<Hashed> parted(count);
     std::vector<std::size_t> next(starts.begin(), starts.end() - 1);
     parallel_ranges(blocks, 1, [&](std::size_t number, std::size_t) {
         for_each_in_block(number, [&](std::size_t i, std::uint64_t hash) {
@@ -57,7 +60,7 @@ std::vector<std::uint32_t> first_equal(
                 static_cast<std::uint32_t>(hash), static_cast<std::uint32_t>(i)};
         });
     });
-    std::vector<std::uint32_t> first(count);
+    UnfilledVector<std::uint32_t> first(count);
     parallel_ranges(parts, 4, [&](std::size_t begin, std::size_t end) {
         constexpr std::uint32_t none = ~std::uint32_t{0};
         std::vector<std::uint32_t> places; // in parted
@@ -87,7 +90,7 @@ std::vector<std::uint32_t> first_equal(
 
 /// Makes of what first_equal() returned consecutive numbers in the order of the first ones;
 /// returns the number of each of those.
-inline std::vector<std::uint32_t> number_consecutively(std::vector<std::uint32_t>& first) {
+inline std::vector<std::uint32_t> number_consecutively(std::span<std::uint32_t> first) {
     std::vector<std::uint32_t> firsts;
     for (std::uint32_t i = 0; i < first.size(); ++i) {
         if (first[i] == i) {

@@ -11,6 +11,7 @@
 #include "vera/visible/plane_sweep.h"
 #include "vera/visible/point_numbers.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -145,6 +146,21 @@ void replace_by_parts(
         change.triangles.push_back(static_cast<std::uint32_t>(i));
 }
 
+/// Room for what replace_by_parts() adds of all triangles: of each one more than cuts.
+void reserve_parts(ScreenScene& scene, const EdgeCuts& cuts, SceneChange& change) {
+    std::size_t parts = 0;
+    std::size_t triangles = 0;
+    for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
+        const SideCuts of_triangle = cuts.of_triangle(i);
+        const auto uncut = std::count(of_triangle.begin(), of_triangle.end(), no_vertex);
+        parts += of_triangle.size() - static_cast<std::size_t>(uncut);
+        triangles += static_cast<std::size_t>(uncut) < of_triangle.size() ? 1 : 0;
+    }
+    scene.triangles.reserve(scene.triangles.size() + parts);
+    change.triangles.reserve(triangles + parts);
+    change.places.reserve(triangles);
+}
+
 /// Closes ways round what is seen, until none is open or nothing new is, or for a number of rounds;
 /// nothing is where that shows triangles that pass through each other. Where the order of three
 /// goes round, within what the grid did to them, the front is a matter of which of them are surely
@@ -192,6 +208,7 @@ SceneChange cut_penetrations(
     }
     SceneChange change;
     const std::size_t count = scene.triangles.size();
+    reserve_parts(scene, cuts, change);
     const LongLoop loop(count, {}, cancel);
     for (std::uint32_t i = 0; i < count; ++i) {
         loop.turn(i);

@@ -56,7 +56,7 @@ template <typename RoomBeside>
 std::vector<PackedPoint> joined_points(
     const PartedPoints& parted,
     std::vector<SeenPart>& parts,
-    std::vector<std::uint32_t>& numbers,
+    UnfilledVector<std::uint32_t>& numbers,
     FreedBlocks& freed,
     const RoomBeside& room_beside) {
     numbers = first_equal(
@@ -169,7 +169,7 @@ VisiblePieces joined(std::vector<SeenPart> parts, std::size_t others) {
     }
     FreedBlocks freed;
     VisiblePieces result;
-    std::vector<std::uint32_t> numbers;
+    UnfilledVector<std::uint32_t> numbers;
     result.points = joined_points(parted, parts, numbers, freed, [&](std::size_t points) {
         return pieces == 0 ? 0 : points * others / pieces; // as many of a piece as here
     });

@@ -327,7 +327,7 @@ ScreenScene screen_scene(
     }
     const double nearest = map.is_parallel() ? 0 : snap.range.least;
     std::vector<ScreenVertex> corners = parts.fans(nearest, snap, sources, scene.triangles);
-    std::vector<std::uint32_t> numbers = first_equal(
+    UnfilledVector<std::uint32_t> numbers = first_equal(
         corners.size(),
         [&](std::size_t i) { return hash_of(corners[i]); },
         [&](std::size_t i, std::size_t j) { return corners[i] == corners[j]; },

@@ -72,12 +72,6 @@ VisiblePieces SeenPart::take() {
     return list;
 }
 
-PackedPoint SeenPart::point(std::size_t i) const {
-    if (const auto* packed = std::get_if<PackedPieces>(&pieces_))
-        return packed->point(i);
-    return std::get<VisiblePieces>(pieces_).points[i];
-}
-
 void SeenPart::forget_points() {
     if (auto* packed = std::get_if<PackedPieces>(&pieces_))
         packed->forget_points();

@@ -47,7 +47,11 @@ public:
     /// Leaves nothing.
     VisiblePieces take();
 
-    PackedPoint point(std::size_t i) const;
+    PackedPoint point(std::size_t i) const {
+        if (const auto* list = std::get_if<VisiblePieces>(&pieces_))
+            return list->points[i];
+        return std::get<PackedPieces>(pieces_).point(i);
+    }
 
     void forget_points();
 

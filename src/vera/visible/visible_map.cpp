@@ -11,6 +11,7 @@
 #include "vera/visible/ways.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -306,6 +307,33 @@ struct MapOrigin {
     }
 };
 
+/// What is seen beside pieces, in ascending order.
+std::vector<std::uint32_t> seen_sources(
+    const ScreenScene& scene,
+    const VisiblePieces& pieces,
+    const Progress& progress,
+    const CancelFlag* cancel) {
+    std::uint32_t most = 0;
+    for (const ScreenTriangle& triangle : scene.triangles)
+        most = std::max(most, triangle.source);
+    // Each part of the pieces marks what it sees in a list of its own.
+    constexpr std::size_t parts = 4;
+    std::array<std::vector<std::uint8_t>, parts> is_seen;
+    const std::size_t count = pieces.pieces.size();
+    long_parallel_loop(parts, progress, cancel, 1, [&](std::size_t part) {
+        is_seen[part].resize(most + std::size_t{1});
+        for (std::size_t i = part * count / parts; i < (part + 1) * count / parts; ++i)
+            for (const std::uint32_t triangle : {pieces.pieces[i].left, pieces.pieces[i].right})
+                if (triangle != no_triangle)
+                    is_seen[part][scene.triangles[triangle].source] = 1;
+    });
+    std::vector<std::uint32_t> sources;
+    for (std::uint32_t source = 0; source <= most; ++source)
+        if (std::ranges::any_of(is_seen, [&](const auto& seen) { return seen[source] != 0; }))
+            sources.push_back(source);
+    return sources;
+}
+
 Ways ways_of(
     const MapOrigin& origin, const Progress& progress, const CancelFlag* cancel, VisibleMap& map) {
     StageProgress stages(progress, 2);
@@ -323,10 +351,17 @@ Ways ways_of(
             visit(2 * i + 1, VisibleMap::Region{scene.triangles[piece.right].source, unlit.right});
     };
     RegionNumbers regions;
-    const LongLoop loop(count, stages.next(1), cancel);
-    for (std::size_t i = 0; i < count; ++i) {
-        loop.turn(i);
-        for_each_region(i, [&](std::size_t, VisibleMap::Region region) { regions.add(region); });
+    const Progress progress_of_regions = stages.next(1);
+    if (pieces.unlit.empty()) {
+        for (const std::uint32_t source : seen_sources(scene, pieces, progress_of_regions, cancel))
+            regions.add({source, 0});
+    } else {
+        const LongLoop loop(count, progress_of_regions, cancel);
+        for (std::size_t i = 0; i < count; ++i) {
+            loop.turn(i);
+            for_each_region(
+                i, [&](std::size_t, VisibleMap::Region region) { regions.add(region); });
+        }
     }
     map.regions = regions.numbered();
     stages.next(1);
@@ -335,6 +370,7 @@ Ways ways_of(
         ways.ends[i] = {piece.from, piece.to};
         ways.steps[i] =
             step(scene.vertices[piece.edge.begin].point, scene.vertices[piece.edge.end].point);
+        ways.region[2 * i] = ways.region[2 * i + 1] = no_region;
         for_each_region(i, [&](std::size_t way, VisibleMap::Region region) {
             ways.region[way] = regions.number(region);
         });

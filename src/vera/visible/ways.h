@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "vera/base/unfilled_vector.h"
 #include "vera/visible/line_step.h"
 #include "vera/visible/visible_map.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 namespace vera {
 
@@ -28,10 +28,11 @@ public:
         region.reserve(2 * most);
     }
 
+    /// Those that it adds are to be filled in.
     void resize(std::size_t count) {
         ends.resize(count);
         steps.resize(count);
-        region.resize(2 * count, no_region);
+        region.resize(2 * count);
     }
 
     std::size_t count() const { return region.size(); }
@@ -50,9 +51,9 @@ public:
         return way % 2 == 0 ? step : ScreenStep{-step.x, -step.y};
     }
 
-    std::vector<Ends> ends;            ///< of the pieces
-    std::vector<LineStep> steps;       ///< along their whole edges
-    std::vector<std::uint32_t> region; ///< seen on the left of each way
+    UnfilledVector<Ends> ends;            ///< of the pieces
+    UnfilledVector<LineStep> steps;       ///< along their whole edges
+    UnfilledVector<std::uint32_t> region; ///< seen on the left of each way
 };
 
 } // namespace vera
