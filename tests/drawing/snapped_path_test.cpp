@@ -110,6 +110,34 @@ TEST(Decimal, HasNothingThatCanBeLeftOut) {
     EXPECT_EQ(decimal(0.75, 4), ".75");
 }
 
+/// All digits, of which those at the ends that are zeros are taken off.
+std::string plain_decimal(std::int64_t units, int digits) {
+    std::string text = std::to_string(std::abs(units));
+    const auto places = static_cast<std::size_t>(digits);
+    if (text.size() < places)
+        text.insert(0, places - text.size(), '0');
+    std::string whole = text.substr(0, text.size() - places);
+    std::string fraction = text.substr(text.size() - places);
+    whole.erase(0, whole.find_first_not_of('0'));
+    fraction.erase(fraction.find_last_not_of('0') + 1);
+    if (whole.empty() && fraction.empty())
+        return "0";
+    return (units < 0 ? "-" : "") + whole + (fraction.empty() ? "" : "." + fraction);
+}
+
+TEST(Decimal, IsThatOfAllDigitsWithoutTheZerosAtItsEnds) {
+    std::mt19937_64 random(3);
+    for (int round = 0; round < 20'000; ++round) {
+        const int digits = static_cast<int>(random() % 13);
+        const auto shift = static_cast<unsigned>(1 + random() % 63);
+        const std::uint64_t size = random() >> shift;
+        const std::uint64_t step = random() % 4 == 0 ? 1'000'000 : 1; // many end in zeros
+        const auto units = static_cast<std::int64_t>(size / step * step);
+        ASSERT_EQ(decimal(units, digits), plain_decimal(units, digits));
+        ASSERT_EQ(decimal(-units, digits), plain_decimal(-units, digits));
+    }
+}
+
 TEST(SvgPathData, IsAsShortAsTheGrammarAllows) {
     EXPECT_EQ(
         svg_path_data(std::vector<SnappedPath>{{{{100, 50}, {150, 25}, {225, 100}}, false}}, 2),

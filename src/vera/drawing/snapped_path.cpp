@@ -9,12 +9,21 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <utility>
 
 namespace vera::detail {
 
 namespace {
+
+/// All that have 64 bits, but for the largest.
+constexpr auto powers_of_ten = [] {
+    std::array<std::uint64_t, 19> powers = {1};
+    for (std::size_t i = 1; i < powers.size(); ++i)
+        powers[i] = 10 * powers[i - 1];
+    return powers;
+}();
 
 /// What is left of a chain with these arcs; nothing when no length is.
 std::optional<SnappedPath> snapped(
@@ -153,25 +162,28 @@ std::optional<SnappedPath> snapped_line(const Stroke& stroke, const Lattice& lat
 }
 
 char* write_decimal(char* to, std::int64_t units, int digits) {
-    std::array<char, 20> text; // of 2^63 - 1
-    const char* const begin = text.data();
-    const char* end = std::to_chars(text.data(), text.data() + text.size(), std::abs(units)).ptr;
-    const std::ptrdiff_t before_point = end - begin - digits; // less than 0: so many zeros follow
-    const char* const point = begin + std::max<std::ptrdiff_t>(before_point, 0);
-    while (end > point && end[-1] == '0')
-        --end;
-    if (end == begin) {
+    VERA_CHECK(static_cast<std::size_t>(digits) < powers_of_ten.size());
+    const auto size = static_cast<std::uint64_t>(std::abs(units));
+    const std::uint64_t unit = powers_of_ten[static_cast<std::size_t>(digits)];
+    const std::uint64_t whole = size / unit;
+    std::uint64_t fraction = size % unit;
+    if (size == 0) {
         *to++ = '0';
         return to;
     }
     if (units < 0)
         *to++ = '-';
-    to = std::copy(begin, point, to);
-    if (end > point) {
+    constexpr std::ptrdiff_t most_digits = 20;
+    if (whole > 0)
+        to = std::to_chars(to, to + most_digits, whole).ptr;
+    if (fraction > 0) {
         *to++ = '.';
-        if (before_point < 0)
-            to = std::fill_n(to, -before_point, '0');
-        to = std::copy(point, end, to);
+        int places = digits;
+        for (; fraction % 10 == 0; fraction /= 10)
+            --places;
+        for (int place = places; place-- > 0; fraction /= 10)
+            to[place] = static_cast<char>('0' + fraction % 10);
+        to += places;
     }
     return to;
 }
