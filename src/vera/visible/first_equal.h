@@ -29,8 +29,7 @@ UnfilledVector<std::uint32_t> first_equal(
     };
 
     constexpr std::size_t most_of_a_part = 4096;
-    // Things whose parts are counted together: few enough that all threads have some.
-    const std::size_t block = std::clamp<std::size_t>(count / 64, 4096, 65536);
+    constexpr std::size_t block = 32768; // things whose parts are counted together
     const int part_bits =
         std::clamp(static_cast<int>(std::bit_width(count / most_of_a_part)), 0, 12);
     const std::size_t parts = std::size_t{1} << part_bits;
@@ -61,7 +60,7 @@ UnfilledVector<std::uint32_t> first_equal(
         });
     });
     UnfilledVector<std::uint32_t> first(count);
-    parallel_ranges(parts, 4, [&](std::size_t begin, std::size_t end) {
+    parallel_ranges(parts, 8, [&](std::size_t begin, std::size_t end) {
         constexpr std::uint32_t none = ~std::uint32_t{0};
         std::vector<std::uint32_t> places; // in parted
         for (std::size_t part = begin; part < end; ++part) {

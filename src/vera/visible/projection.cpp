@@ -334,11 +334,12 @@ ScreenScene screen_scene(
         cancel);
     const std::vector<std::uint32_t> firsts = number_consecutively(numbers);
     scene.vertices.resize(firsts.size());
-    parallel_ranges(firsts.size(), block, [&](std::size_t first, std::size_t last) {
+    constexpr std::size_t many = 4 * block; // for fewer to wake another thread takes longer
+    parallel_ranges(firsts.size(), many, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i)
             scene.vertices[i] = corners[firsts[i]];
     });
-    parallel_ranges(scene.triangles.size(), block, [&](std::size_t first, std::size_t last) {
+    parallel_ranges(scene.triangles.size(), many, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i)
             for (std::uint32_t& vertex : scene.triangles[i].vertices)
                 vertex = numbers[vertex];

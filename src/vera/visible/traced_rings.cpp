@@ -49,7 +49,7 @@ PartedWays parted_by_region(
     const CancelFlag* cancel) {
     constexpr std::size_t most_parts = 1024;
     constexpr std::size_t least_of_a_part = 4096;
-    const std::size_t ways_of_a_block = std::clamp<std::size_t>(ways.count() / 64, 4096, 65536);
+    constexpr std::size_t ways_of_a_block = 32768;
     const std::size_t ways_of_a_part = std::max(least_of_a_part, ways.count() / most_parts + 1);
     const std::size_t parts = ways.count() / ways_of_a_part + 1;
     const std::size_t blocks = (ways.count() + ways_of_a_block - 1) / ways_of_a_block;
