@@ -309,7 +309,8 @@ namespace {
 
 constexpr std::size_t edges_of_part = 4096; // that are followed at a time
 
-/// Where no shadow is near, there is none.
+} // namespace
+
 void set_unlit(const CellRaster& raster, VisiblePieces& list) {
     const ScreenScene& scene = raster.scene;
     const auto unlit = [&](std::uint32_t triangle) {
@@ -320,8 +321,6 @@ void set_unlit(const CellRaster& raster, VisiblePieces& list) {
         for (const VisiblePiece& piece : list.pieces)
             list.unlit.push_back({unlit(piece.left), unlit(piece.right)});
 }
-
-} // namespace
 
 PiecesOfParts kept_pieces(const CellRaster& raster, std::vector<SeenPart> before) {
     const std::vector<ScreenEdges::Edge>& edges = raster.edges.edges;

@@ -69,6 +69,9 @@ struct ExpectedPieces {
 ExpectedPieces expected_pieces(
     const CellRaster& raster, std::size_t first, std::size_t last, const CancelFlag* cancel);
 
+/// Tells of the pieces which lights do not reach what is beside them, where no shadow is near.
+void set_unlit(const CellRaster& raster, VisiblePieces& list);
+
 /// Of each part of all edges that is followed at a time, pieces of its edges.
 using PiecesOfParts = std::vector<std::vector<SeenPart>>;
 
