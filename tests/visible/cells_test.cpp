@@ -19,18 +19,63 @@ using testing::scattered;
 using testing::tangle;
 using testing::terrain;
 
-TEST(Cells, HoldListsInProportionToTheTrianglesHoweverManyLieOneBehindTheOther) {
-    // Slanting so that none is nearer than another everywhere.
+/// Slanting so that none is nearer than another everywhere.
+ScreenScene slanting_one_behind_the_other() {
     ScreenScene scene;
-    constexpr std::uint32_t count = 3000;
-    for (std::uint32_t i = 0; i < count; ++i) {
+    for (std::uint32_t i = 0; i < 3000; ++i) {
         const auto first = static_cast<std::uint32_t>(scene.vertices.size());
         scene.vertices.push_back({{0, static_cast<std::int32_t>(i)}, depth_size / 2 - i});
         scene.vertices.push_back({{screen_size, 0}, depth_size / 2});
         scene.vertices.push_back({{0, screen_size}, depth_size / 2 + i});
         add_triangle(scene, {first, first + 1, first + 2}, i);
     }
-    EXPECT_LE(cells_of(scene).triangles.size(), 64 * count + 65536);
+    return scene;
+}
+
+TEST(Cells, HoldListsInProportionToTheTrianglesHoweverManyLieOneBehindTheOther) {
+    const ScreenScene scene = slanting_one_behind_the_other();
+    EXPECT_LE(cells_of(scene).triangles.size(), 64 * scene.triangles.size() + 65536);
+}
+
+/// Whoever is asked may make use of it: rounds of cutting take then what they keep.
+TEST(Cells, AreAskedForOnceWhereThereAreFewerInTheEnd) {
+    const ScreenScene scene = slanting_one_behind_the_other();
+    const std::vector<NearnessSlope> slopes = slopes_of(scene);
+    const Cells all = cells_of(scene, slopes);
+    int calls = 0;
+    std::int32_t asked_per_side = 0;
+    // Not in the lower left quarter of the picture; elsewhere one corner of each larger cell.
+    const auto is_asked = [&](std::int32_t column, std::int32_t row) {
+        return column >= asked_per_side / 4 || row >= asked_per_side / 4;
+    };
+    const Cells some = cells_of(scene, slopes, nullptr, [&](const Cells& cells) {
+        ++calls;
+        asked_per_side = cells.per_side;
+        std::vector<std::uint8_t> asked(cells.blocked.size());
+        for (std::int32_t row = 0; row < cells.per_side; ++row)
+            for (std::int32_t column = 0; column < cells.per_side; ++column)
+                asked[cells.number(column, row)] =
+                    is_asked(column, row) && column % 2 == 1 && row % 2 == 1 ? asked_for
+                                                                             : not_asked;
+        return asked;
+    });
+    EXPECT_EQ(calls, 1);
+    EXPECT_LT(some.per_side, asked_per_side);
+    ASSERT_EQ(some.per_side, all.per_side);
+    const std::int32_t width = asked_per_side / some.per_side;
+    std::size_t entries = 0;
+    for (std::int32_t row = 0; row < some.per_side; ++row)
+        for (std::int32_t column = 0; column < some.per_side; ++column) {
+            const std::size_t cell = some.number(column, row);
+            const bool are_same =
+                std::ranges::equal(some.triangles_of(cell), all.triangles_of(cell));
+            if (is_asked(column * width, row * width))
+                EXPECT_TRUE(are_same) << column << ' ' << row;
+            else
+                EXPECT_TRUE(some.triangles_of(cell).empty()) << column << ' ' << row;
+            entries += some.triangles_of(cell).size();
+        }
+    EXPECT_GT(entries, scene.triangles.size());
 }
 
 TEST(Cells, ThatAreAskedForHoldAndAreBlockedByTheSameAsIfAllWere) {

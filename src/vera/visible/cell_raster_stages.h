@@ -23,8 +23,8 @@ namespace vera {
 /// How much of the time goes into what all edges are compared with.
 constexpr double part_of_preparation = 0.2;
 
-/// Tells, when edges are known and cells have no lists yet, which cells are asked
-/// for, as AskedCell.
+/// Tells, when edges are known and cells have no lists yet, which cells are asked for: see
+/// AskedCells.
 using AskedOfRaster = std::function<std::vector<std::uint8_t>(CellRaster&, const Cells&)>;
 
 /// What all edges of the scene are compared with.

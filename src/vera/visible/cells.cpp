@@ -37,6 +37,20 @@ bool is_as_large_as(
         && reaches(corners[0].point.y, corners[1].point.y, corners[2].point.y);
 }
 
+/// Of these cells, which are asked for: those of which a quarter is.
+std::vector<std::uint8_t>
+in_larger_cells(const std::vector<std::uint8_t>& asked_quarters, const Cells& cells) {
+    std::vector<std::uint8_t> asked(asked_quarters.size() / 4);
+    const std::int32_t quarters_per_side = 2 * cells.per_side;
+    std::size_t quarter = 0;
+    for (std::int32_t row = 0; row < quarters_per_side; ++row)
+        for (std::int32_t column = 0; column < quarters_per_side; ++column, ++quarter) {
+            std::uint8_t& cell = asked[cells.number(column / 2, row / 2)];
+            cell = std::max(cell, asked_quarters[quarter]);
+        }
+    return asked;
+}
+
 int shift_for(std::size_t triangles) {
     // One and a half to six cells a triangle. With more, edges are compared with less, and the
     // lists take longer to make: scattered triangles would take more, closed bodies fewer.
@@ -234,7 +248,7 @@ void CellLists::ask(const Cells& cells) {
     };
     if (!asked_)
         return find_reaches(rows_of);
-    asked_cells_ = asked_(cells);
+    asked_cells_ = asked_cells_.empty() ? asked_(cells) : in_larger_cells(asked_cells_, cells);
     const CellsInRows asked_in_rows(cells, asked_cells_);
     find_reaches([&](const std::array<ScreenVertex, 3>& corners) {
         const auto [left, right] =

@@ -141,7 +141,8 @@ void for_each_cell_of(
 /// Of a cell, whether its list is asked for, and with what is hidden there.
 enum AskedCell : std::uint8_t { not_asked, asked_for, asked_with_hidden };
 
-/// Tells of cells, which have no lists yet, which ones are asked for, as AskedCell.
+/// Tells of cells, which have no lists yet, which ones are asked for, as AskedCell. Called once:
+/// where there are fewer cells in the end, those are asked for of which a part is.
 using AskedCells = std::function<std::vector<std::uint8_t>(const Cells&)>;
 
 /// slopes[i] is that of triangle i. Where many triangles lie one behind the other
