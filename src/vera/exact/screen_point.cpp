@@ -2,9 +2,9 @@
 #include "vera/exact/screen_point.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstdint>
 #include <cstdlib>
+#include <utility>
 
 namespace vera {
 
@@ -40,19 +40,14 @@ Quotient part_of(std::int64_t length, SegmentPlace place) {
     return {whole, rest};
 }
 
-/// Of numbers of which none is negative (Stein 1967).
+/// By Euclid's algorithm with the least remainders, which takes a third fewer divisions. Processors
+/// divide so fast that shifts and differences (Stein 1967) take longer.
 std::uint64_t common_divisor(std::uint64_t a, std::uint64_t b) {
-    if (a == 0 || b == 0)
-        return a | b;
-    const int twos = std::countr_zero(a | b);
-    a >>= std::countr_zero(a);
-    do {
-        b >>= std::countr_zero(b);
-        const std::uint64_t lesser = std::min(a, b);
-        b = std::max(a, b) - lesser;
-        a = lesser;
-    } while (b != 0);
-    return a << twos;
+    while (b != 0) {
+        const std::uint64_t rest = a % b;
+        a = std::exchange(b, std::min(rest, b - rest));
+    }
+    return a;
 }
 
 /// Of three, the last of which is positive: most often 1 after two of them.

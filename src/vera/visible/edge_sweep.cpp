@@ -216,7 +216,8 @@ EdgeSweep::Seen EdgeSweep::seen(const Cover* nearest, std::uint8_t side) const {
     if (nearest == nullptr)
         return {};
     const std::uint32_t source = source_of(nearest->triangle);
-    return {nearest->triangle, raster_.scene.unlit_of(source) | shadows_.lights(source, side)};
+    const LightSet unlit = raster_.scene.unlit_of(source);
+    return {nearest->triangle, may_be_shadow_ ? unlit | shadows_.lights(source, side) : unlit};
 }
 
 /// Of several edges in one place that what is seen beside it has, one speaks for all: of those of

@@ -27,6 +27,17 @@ std::uint32_t SeenBeside::foremost_on(std::uint8_t side) const {
     return foremost;
 }
 
+/// Of what covers the side, that which surely hides all else, or nothing where none covers it;
+/// nullopt: there are several.
+std::optional<std::uint32_t> SeenBeside::only_one_on(std::uint8_t side) const {
+    const std::uint32_t foremost = foremost_on(side);
+    for (std::uint32_t i = 0; i < candidates_.size(); ++i)
+        if (i != foremost && (candidates_[i].sides & side) != 0
+            && !candidates_[foremost].hides(candidates_[i]))
+            return std::nullopt;
+    return foremost;
+}
+
 /// What nothing surely hides; what is asked among all, as find_front_among_all().
 void SeenBeside::find_front(std::uint8_t side, Front& front) {
     if (hiding_ == Hiding::by_nothing)
@@ -247,6 +258,13 @@ SeenBeside::Seen SeenBeside::find(
                            });
     if (is_hidden && !asks_always)
         return {nothing, nothing, foremost_};
+    if (hiding_ == Hiding::by_what_covers) {
+        // Of most parts. That which is the same on both sides covers both of them.
+        const std::optional<std::uint32_t> left = only_one_on(left_side);
+        const std::optional<std::uint32_t> right = left ? only_one_on(right_side) : std::nullopt;
+        if (right)
+            return left == right && !asks_always ? Seen{} : Seen{*left, *right};
+    }
     find_front(left_side, fronts_[0]);
     find_front(right_side, fronts_[1]);
     if (!asks_always && !has_one_sided(fronts_[0]) && !has_one_sided(fronts_[1]))

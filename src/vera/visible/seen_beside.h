@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -122,6 +123,7 @@ private:
     using Front = std::vector<InFront>;
 
     std::uint32_t foremost_on(std::uint8_t side) const;
+    std::optional<std::uint32_t> only_one_on(std::uint8_t side) const;
     void find_front(std::uint8_t side, Front& front);
     void find_front_among_all(std::uint8_t side, Front& front);
     bool has_one_sided(const Front& front) const;
