@@ -225,10 +225,9 @@ TEST(PieceLists, KeptPiecesAndThoseOfEdgesFollowedAgainAreAsIfAllHadBeenFollowed
                 is_near = is_near == 0 ? 1 : 0;
             raster.is_near_change.push_back(is_near);
         }
-        PiecesOfParts kept = kept_pieces(raster, std::move(parts));
+        std::vector<EdgePart> kept = kept_pieces(raster, std::move(parts));
         parts.clear();
-        follow_edges(
-            raster, 0, raster.edges.edges.size(), {}, nullptr, parts, nullptr, std::move(kept));
+        follow_edges(raster, std::move(kept), {}, nullptr, parts);
         expect_same(joined(std::move(parts)), expected, seed);
     }
 }

@@ -179,7 +179,7 @@ SeenPieces cell_raster_parts_after(
     const ExpectPieces& expect) {
     SeenPieces seen;
     {
-        PiecesOfParts kept;
+        std::vector<EdgePart> kept;
         const AskedOfRaster asked = [&](CellRaster& of, const Cells& cells) {
             of.is_near_change = edges_in(cells_of_change(change, of, cells), of, cells);
             // As soon as that is known: what comes takes the room of what is not kept.
@@ -194,19 +194,15 @@ SeenPieces cell_raster_parts_after(
         CellRaster raster = raster_of(scene, asked, progress, cancel);
         free_room(raster.cells.blocked);
         std::size_t kept_count = 0;
-        for (const std::vector<SeenPart>& of_part : kept)
-            for (const SeenPart& some : of_part)
-                kept_count += some.size();
+        for (const EdgePart& part : kept)
+            kept_count += part.kept.size();
         check_memory(raster, kept_count, expect, cancel);
         follow_edges(
             raster,
-            0,
-            raster.edges.edges.size(),
+            std::move(kept),
             progress_between(progress, part_of_preparation, 1),
             cancel,
-            seen.parts,
-            nullptr,
-            std::move(kept));
+            seen.parts);
     }
     seen.penetrating = take_penetrating(seen.parts);
     std::vector<std::uint8_t> is_changed(scene.triangles.size());

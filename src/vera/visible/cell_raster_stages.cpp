@@ -6,6 +6,7 @@
 #include "vera/base/progress_part.h"
 #include "vera/visible/drawing_memory.h"
 #include "vera/visible/part_sweeps.h"
+#include "vera/visible/piece_lists.h"
 
 #include <algorithm>
 #include <array>
@@ -305,12 +306,6 @@ ExpectedPieces expected_pieces(
     return all;
 }
 
-namespace {
-
-constexpr std::size_t edges_of_part = 4096; // that are followed at a time
-
-} // namespace
-
 void set_unlit(const CellRaster& raster, VisiblePieces& list) {
     const ScreenScene& scene = raster.scene;
     const auto unlit = [&](std::uint32_t triangle) {
@@ -322,49 +317,62 @@ void set_unlit(const CellRaster& raster, VisiblePieces& list) {
             list.unlit.push_back({unlit(piece.left), unlit(piece.right)});
 }
 
-PiecesOfParts kept_pieces(const CellRaster& raster, std::vector<SeenPart> before) {
+namespace {
+
+/// The edges in parts.
+std::vector<EdgePart> edge_parts(std::size_t first, std::size_t last) {
+    constexpr std::size_t most = 4096; // edges that are followed at a time
+    std::vector<EdgePart> parts;
+    for (std::size_t next = first; next < last; next += most)
+        parts.push_back({next, std::min(next + most, last), {}});
+    return parts;
+}
+
+/// In parts of all edges: edges between those of two parts are the second one's.
+std::vector<EdgePart> joined_up(std::vector<EdgePart> parts, std::size_t edges) {
+    std::size_t next = 0;
+    for (EdgePart& part : parts) {
+        part.first = next;
+        next = part.last = std::max(next, part.last);
+    }
+    for (EdgePart& part : edge_parts(next, edges))
+        parts.push_back(std::move(part));
+    return parts;
+}
+
+} // namespace
+
+std::vector<EdgePart> kept_pieces(const CellRaster& raster, std::vector<SeenPart> before) {
     const std::vector<ScreenEdges::Edge>& edges = raster.edges.edges;
-
-    struct Kept {
-        std::size_t part = 0; ///< of the edges
-        SeenPart pieces;
-    };
-
-    std::vector<std::vector<Kept>> kept(before.size());
+    std::vector<EdgePart> kept(before.size());
     parallel_ranges(before.size(), 1, [&](std::size_t number, std::size_t) {
         VisiblePieces list = before[number].take();
+        if (list.pieces.empty())
+            return;
         set_unlit(raster, list);
-        const auto is_kept = [&](std::size_t edge, std::size_t i) {
-            return edge < edges.size() && edges[edge] == list.pieces[i].edge
-                && raster.is_near_change[edge] == 0;
-        };
-        std::size_t edge = list.pieces.empty()
-            ? 0
-            : static_cast<std::size_t>(
-                std::lower_bound(edges.begin(), edges.end(), list.pieces.front().edge)
-                - edges.begin());
-        for (std::size_t i = 0; i < list.pieces.size();) {
-            const std::size_t part = edge / edges_of_part;
-            const std::size_t last = std::min(edges.size(), (part + 1) * edges_of_part);
-            VisiblePieces of_part;
-            PieceCopy copy(list, of_part);
-            for (; i < list.pieces.size(); ++i) {
-                while (edge < last && edges[edge] < list.pieces[i].edge)
-                    ++edge;
-                if (edge == last && last < edges.size())
-                    break;
-                if (is_kept(edge, i))
-                    copy.add(i);
-            }
-            if (!of_part.pieces.empty())
-                kept[number].push_back({part, SeenPart(std::move(of_part), raster.storage)});
+        std::size_t edge = static_cast<std::size_t>(
+            std::lower_bound(edges.begin(), edges.end(), list.pieces.front().edge) - edges.begin());
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < list.pieces.size(); ++i) {
+            while (edge < edges.size() && edges[edge] < list.pieces[i].edge)
+                ++edge;
+            if (edge == edges.size() || edges[edge] != list.pieces[i].edge
+                || raster.is_near_change[edge] != 0)
+                continue;
+            list.pieces[count] = list.pieces[i];
+            if (!list.unlit.empty())
+                list.unlit[count] = list.unlit[i];
+            ++count;
         }
+        if (count < list.pieces.size()) {
+            list.pieces.resize(count);
+            list.unlit.resize(list.unlit.empty() ? 0 : count);
+            if (raster.storage == PieceStorage::packed) // else they are left out when it is copied
+                forget_unused_points(list);
+        }
+        kept[number] = {0, edge, SeenPart(std::move(list), raster.storage)};
     });
-    PiecesOfParts result((edges.size() + edges_of_part - 1) / edges_of_part);
-    for (std::vector<Kept>& of_part : kept)
-        for (Kept& some : of_part)
-            result[some.part].push_back(std::move(some.pieces));
-    return result;
+    return joined_up(std::move(kept), edges.size());
 }
 
 void follow_edges(
@@ -374,20 +382,26 @@ void follow_edges(
     const Progress& progress,
     const CancelFlag* cancel,
     std::vector<SeenPart>& parts,
-    CellCounts* counts,
-    PiecesOfParts kept) {
-    constexpr std::size_t part = edges_of_part;
-    kept.resize((last - first + part - 1) / part);
+    CellCounts* counts) {
+    follow_edges(raster, edge_parts(first, last), progress, cancel, parts, counts);
+}
+
+void follow_edges(
+    const CellRaster& raster,
+    std::vector<EdgePart> edges,
+    const Progress& progress,
+    const CancelFlag* cancel,
+    std::vector<SeenPart>& parts,
+    CellCounts* counts) {
     const std::size_t before = parts.size();
-    parts.resize(before + kept.size());
+    parts.resize(before + edges.size());
     PartSweeps sweeps(raster);
     std::mutex mutex;
     std::size_t done = before;
     parallel_ranges(parts.size() - before, 1, [&](std::size_t from, std::size_t to) {
         std::unique_ptr<PartSweep> sweep = sweeps.take();
         for (std::size_t i = from; i < to; ++i)
-            parts[before + i] = sweep->followed(
-                first + i * part, std::min(last, first + (i + 1) * part), kept[i], cancel);
+            parts[before + i] = sweep->followed(edges[i], cancel);
         sweeps.give_back(std::move(sweep));
         const std::lock_guard lock(mutex);
         done += to - from;

@@ -72,16 +72,12 @@ ExpectedPieces expected_pieces(
 /// Tells of the pieces which lights do not reach what is beside them, where no shadow is near.
 void set_unlit(const CellRaster& raster, VisiblePieces& list);
 
-/// Of each part of all edges that is followed at a time, pieces of its edges.
-using PiecesOfParts = std::vector<std::vector<SeenPart>>;
-
 /// Those of the pieces that are of edges that are there still, and far from the change; in the
-/// light that reaches their sources where there is no shadow.
-PiecesOfParts kept_pieces(const CellRaster& raster, std::vector<SeenPart> before);
+/// light that reaches their sources where there is no shadow. In parts of all edges.
+std::vector<EdgePart> kept_pieces(const CellRaster& raster, std::vector<SeenPart> before);
 
 /// Follows the edges from first to before last that are near what was changed, or all, and adds
-/// what is found, in parts, one behind the other. Kept pieces, if there are any, are taken in by
-/// their edges: then all edges are to be followed.
+/// what is found, in parts, one behind the other.
 void follow_edges(
     const CellRaster& raster,
     std::size_t first,
@@ -89,8 +85,16 @@ void follow_edges(
     const Progress& progress,
     const CancelFlag* cancel,
     std::vector<SeenPart>& parts,
-    CellCounts* counts = nullptr,
-    PiecesOfParts kept = {});
+    CellCounts* counts = nullptr);
+
+/// The same of these parts of the edges, whose kept pieces are taken in by their edges.
+void follow_edges(
+    const CellRaster& raster,
+    std::vector<EdgePart> edges,
+    const Progress& progress,
+    const CancelFlag* cancel,
+    std::vector<SeenPart>& parts,
+    CellCounts* counts = nullptr);
 
 /// Of each edge from that one on, how near it is in the planes of all triangles, from the first one
 /// on, that have it.

@@ -20,27 +20,24 @@ const VisiblePieces& PartSweep::followed(std::uint32_t edge) {
     return found_;
 }
 
-SeenPart PartSweep::followed(
-    std::size_t first, std::size_t last, std::span<SeenPart> kept, const CancelFlag* cancel) {
+SeenPart PartSweep::followed(EdgePart& part, const CancelFlag* cancel) {
     clear();
     const std::vector<ScreenEdges::Edge>& edges = raster_.edges.edges;
-    std::size_t next = first;
+    std::size_t next = part.first;
     const auto follow_next = [&] {
         stop_if_raised(cancel); // one edge may be compared with all triangles
         if (raster_.is_followed(next))
             sweep_.follow(static_cast<std::uint32_t>(next), found_);
         ++next;
     };
-    for (SeenPart& part : kept) {
-        const VisiblePieces list = part.take();
-        PieceCopy copy(list, found_);
-        for (std::size_t i = 0; i < list.pieces.size(); ++i) {
-            while (next < last && edges[next] < list.pieces[i].edge)
-                follow_next();
-            copy.add(i);
-        }
+    const VisiblePieces kept = part.kept.take();
+    PieceCopy copy(kept, found_);
+    for (std::size_t i = 0; i < kept.pieces.size(); ++i) {
+        while (next < part.last && edges[next] < kept.pieces[i].edge)
+            follow_next();
+        copy.add(i);
     }
-    while (next < last)
+    while (next < part.last)
         follow_next();
     if (raster_.storage == PieceStorage::packed)
         number_points();

@@ -13,7 +13,6 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
-#include <span>
 #include <vector>
 
 namespace vera {
@@ -29,10 +28,9 @@ public:
     /// What is found of one edge, until another is followed.
     const VisiblePieces& followed(std::uint32_t edge);
 
-    /// What is found of the edges from first to before last that are near what was changed, and the
-    /// kept pieces of others of these edges, which it takes. Throws Cancelled.
-    SeenPart followed(
-        std::size_t first, std::size_t last, std::span<SeenPart> kept, const CancelFlag* cancel);
+    /// What is found of those of the edges that are near what was changed, and the kept pieces,
+    /// which it takes. Throws Cancelled.
+    SeenPart followed(EdgePart& part, const CancelFlag* cancel);
 
     /// Of all edges that it followed.
     CellCounts counts() const { return sweep_.counts(); }

@@ -210,6 +210,12 @@ void keep_pieces(const std::vector<std::uint8_t>& is_kept, VisiblePieces& list) 
     give_back_unused(list.pieces);
     list.unlit.resize(list.unlit.empty() ? 0 : kept);
     give_back_unused(list.unlit);
+    forget_unused_points(list);
+}
+
+} // namespace
+
+void forget_unused_points(VisiblePieces& list) {
     constexpr std::uint32_t unused = ~std::uint32_t{0};
     std::vector<std::uint32_t> numbers(list.points.size(), unused);
     for (const VisiblePiece& piece : list.pieces)
@@ -227,8 +233,6 @@ void keep_pieces(const std::vector<std::uint8_t>& is_kept, VisiblePieces& list) 
         piece.to = numbers[piece.to];
     }
 }
-
-} // namespace
 
 void join_along_edges(VisiblePieces& list) {
     std::vector<std::uint8_t> ends(list.points.size()); // at each point, or 3 of more

@@ -37,6 +37,10 @@ VisiblePieces joined(std::vector<SeenPart> parts, std::size_t others = 0);
 /// Done in the room of the larger list, where that suffices.
 VisiblePieces merged(VisiblePieces before, VisiblePieces found);
 
+/// Leaves out the points that no piece has. The list keeps its room, but not the memory of what is
+/// not used.
+void forget_unused_points(VisiblePieces& list);
+
 /// Makes one piece of those that follow each other on an edge, with the same beside them, where
 /// nothing else ends. Where edges are parted so is a matter of how what is seen was found: what is
 /// left is not.

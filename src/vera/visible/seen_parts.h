@@ -97,6 +97,14 @@ private:
     std::vector<std::uint32_t> numbers_; ///< of the points, in the list they are copied to, or none
 };
 
+/// Edges from first to before last, which are followed one after the other, and the pieces of those
+/// of them that are not followed again.
+struct EdgePart {
+    std::size_t first = 0;
+    std::size_t last = 0;
+    SeenPart kept;
+};
+
 /// What is seen of a scene, in parts: what a round of cutting begins and ends with.
 struct SeenPieces {
     std::vector<SeenPart> parts; ///< by the edges of their pieces

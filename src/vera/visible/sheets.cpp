@@ -49,6 +49,11 @@ public:
     explicit SheetsOfCell(const SheetScene& sheets)
         : sheets_(sheets) {}
 
+    /// Of the triangles those that hang together with another, in their order, as long as nothing
+    /// else is asked: sheets are made of these alone.
+    std::span<const std::uint32_t>
+    joined(std::span<const std::uint32_t> triangles, const std::vector<std::uint8_t>& is_joined);
+
     /// How near the nearest sheet is that covers the cell, less what may be amiss; -1: there is
     /// none.
     double blocked(std::span<const std::uint32_t> triangles, const Square& square);
@@ -74,7 +79,17 @@ private:
     std::vector<double> least_;           ///< of the sheet at its root
     std::vector<std::pair<double, std::uint32_t>> by_nearness_;
     std::vector<std::uint32_t> nearest_;
+    std::vector<std::uint32_t> joined_;
 };
+
+std::span<const std::uint32_t> SheetsOfCell::joined(
+    std::span<const std::uint32_t> triangles, const std::vector<std::uint8_t>& is_joined) {
+    joined_.clear();
+    for (const std::uint32_t i : triangles)
+        if (is_joined[i] != 0)
+            joined_.push_back(i);
+    return joined_;
+}
 
 /// Joins the triangle to those beyond its sides in the cell.
 void SheetsOfCell::join(
@@ -180,16 +195,13 @@ void block_by_sheets(Cells& cells, const SheetScene& sheets, const CancelFlag* c
     // Of longer lists, in which joining takes long, the nearest: among the others there is hardly a
     // sheet without a border that hides something that these do not.
     constexpr std::size_t longest = 256;
-    const std::vector<std::uint8_t> joined = joined_triangles(sheets);
-    if (std::find(joined.begin(), joined.end(), 1) == joined.end())
+    const std::vector<std::uint8_t> is_joined = joined_triangles(sheets);
+    if (std::find(is_joined.begin(), is_joined.end(), 1) == is_joined.end())
         return;
     std::vector<std::uint32_t> ends(cells.starts.begin() + 1, cells.starts.end());
     const auto block = [&](std::size_t cell, SheetsOfCell& sheets_of_cell) {
-        const auto triangles = cells.triangles_of(cell);
-        if (triangles.size() < 2
-            || std::none_of(triangles.begin(), triangles.end(), [&](std::uint32_t i) {
-                   return joined[i] != 0;
-               }))
+        const auto triangles = sheets_of_cell.joined(cells.triangles_of(cell), is_joined);
+        if (triangles.size() < 2)
             return;
         const auto per_side = static_cast<std::size_t>(cells.per_side);
         const ScreenPoint low = {
