@@ -26,37 +26,95 @@ void for_each_cell_of_points(
     }
 }
 
-/// Which cells are touched by what was changed, or were.
-std::vector<std::uint8_t>
-cells_of_change(const SceneChange& change, const CellRaster& raster, const Cells& cells) {
-    std::vector<std::uint8_t> is_changed(cells.blocked.size());
-    const auto mark = [&](std::size_t cell) { mark_from_any_thread(is_changed[cell]); };
-    constexpr std::size_t block = 1024; // triangles that a thread takes at a time
-    parallel_ranges(change.triangles.size(), block, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) {
-            const ScreenTriangle& triangle = raster.scene.triangles[change.triangles[i]];
-            for_each_cell_of(cells, corners_of(raster.scene, triangle), mark);
-        }
-    });
-    parallel_ranges(change.places.size(), block, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i)
-            for_each_cell_of(cells, change.places[i], mark);
-    });
-    for_each_cell_of_points(change.asked, cells, mark);
-    return is_changed;
+/// Whether the segment and the triangle have a point in common: exactly where no line parts them,
+/// of those along it and along the sides (the theorem of separating axes).
+bool do_meet(ScreenPoint a, ScreenPoint b, const std::array<ScreenPoint, 3>& corners) {
+    bool is_left = true;
+    bool is_right = true;
+    for (const ScreenPoint corner : corners) {
+        const std::int64_t side = orientation(a, b, corner);
+        is_left = is_left && side > 0;
+        is_right = is_right && side < 0;
+    }
+    if (is_left || is_right)
+        return false;
+    for (std::size_t i = 0; i < 3; ++i) { // corners go round to the left
+        const ScreenPoint from = corners[i];
+        const ScreenPoint to = corners[(i + 1) % 3];
+        if (orientation(from, to, a) < 0 && orientation(from, to, b) < 0)
+            return false;
+    }
+    return true;
 }
 
-/// Which edges lie in one of the cells.
-std::vector<std::uint8_t> edges_in(
-    const std::vector<std::uint8_t>& is_changed, const CellRaster& raster, const Cells& cells) {
+/// Tells what is near a change: what meets a triangle that is new or was there before, or comes to
+/// a cell of the points near which all is asked again.
+class NearChange {
+public:
+    NearChange(const SceneChange& change, const ScreenScene& scene, const Cells& cells)
+        : cells_(cells)
+        , is_changed_(cells.blocked.size())
+        , first_of_cell_(cells.blocked.size(), none) {
+        for (const std::uint32_t triangle : change.triangles)
+            add(corners_of(scene, scene.triangles[triangle]));
+        for (const std::array<ScreenVertex, 3>& corners : change.places)
+            add(corners);
+        for_each_cell_of_points(
+            change.asked, cells, [&](std::size_t cell) { is_changed_[cell] = all_of_it; });
+    }
+
+    /// Which edges are.
+    std::vector<std::uint8_t> edges_near(const CellRaster& raster) const;
+
+private:
+    static constexpr std::uint32_t none = ~std::uint32_t{0};
+
+    enum Changed : std::uint8_t { nowhere, somewhere, all_of_it };
+
+    /// Of the list of a cell.
+    struct Entry {
+        std::uint32_t triangle = 0;
+        std::uint32_t next = none;
+    };
+
+    void add(const std::array<ScreenVertex, 3>& corners);
+    bool meets_in_cell(ScreenPoint a, ScreenPoint b, std::size_t cell) const;
+
+    const Cells& cells_;
+    std::vector<std::array<ScreenPoint, 3>> triangles_;
+    std::vector<std::uint8_t> is_changed_;
+    std::vector<std::uint32_t> first_of_cell_; ///< entry
+    std::vector<Entry> entries_;
+};
+
+void NearChange::add(const std::array<ScreenVertex, 3>& corners) {
+    const auto triangle = static_cast<std::uint32_t>(triangles_.size());
+    triangles_.push_back({corners[0].point, corners[1].point, corners[2].point});
+    for_each_cell_of(cells_, corners, [&](std::size_t cell) {
+        is_changed_[cell] = somewhere;
+        entries_.push_back({triangle, first_of_cell_[cell]});
+        first_of_cell_[cell] = static_cast<std::uint32_t>(entries_.size() - 1);
+    });
+}
+
+bool NearChange::meets_in_cell(ScreenPoint a, ScreenPoint b, std::size_t cell) const {
+    if (is_changed_[cell] == all_of_it)
+        return true;
+    for (std::uint32_t i = first_of_cell_[cell]; i != none; i = entries_[i].next)
+        if (do_meet(a, b, triangles_[entries_[i].triangle]))
+            return true;
+    return false;
+}
+
+std::vector<std::uint8_t> NearChange::edges_near(const CellRaster& raster) const {
     std::vector<std::uint8_t> near(raster.edges.edges.size());
-    const CellsInRows changed_in_rows(cells, is_changed);
+    const CellsInRows changed_in_rows(cells_, is_changed_);
     // By its box, which most are far by.
     const auto may_be_near = [&](ScreenPoint a, ScreenPoint b) {
         const auto [left, right] = std::minmax(a.x, b.x);
         const auto [low, high] = std::minmax(a.y, b.y);
         // for_each_cell_along() looks a step beside the edge.
-        const auto cell_of = [&](std::int32_t at) { return cells.cell_of(std::max(at, 0)); };
+        const auto cell_of = [&](std::int32_t at) { return cells_.cell_of(std::max(at, 0)); };
         const std::int32_t last = cell_of(high + 1);
         for (std::int32_t row = cell_of(low - 1); row <= last; ++row)
             if (changed_in_rows.are_any({cell_of(left - 1), cell_of(right + 1)}, row))
@@ -65,14 +123,12 @@ std::vector<std::uint8_t> edges_in(
     };
     parallel_ranges(near.size(), 4096, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
-            const auto point = [&](std::uint32_t vertex) {
-                return raster.scene.vertices[vertex].point;
-            };
-            const auto& [begin, end] = raster.edges.edges[i];
-            const bool is_far = !may_be_near(point(begin), point(end))
-                || for_each_cell_along(cells, point(begin), point(end), [&](std::size_t cell) {
-                       return is_changed[cell] == 0;
-                   });
+            const ScreenPoint a = raster.scene.vertices[raster.edges.edges[i].begin].point;
+            const ScreenPoint b = raster.scene.vertices[raster.edges.edges[i].end].point;
+            const bool is_far =
+                !may_be_near(a, b) || for_each_cell_along(cells_, a, b, [&](std::size_t cell) {
+                    return !meets_in_cell(a, b, cell);
+                });
             near[i] = is_far ? 0 : 1;
         }
     });
@@ -181,7 +237,7 @@ SeenPieces cell_raster_parts_after(
     {
         std::vector<EdgePart> kept;
         const AskedOfRaster asked = [&](CellRaster& of, const Cells& cells) {
-            of.is_near_change = edges_in(cells_of_change(change, of, cells), of, cells);
+            of.is_near_change = NearChange(change, of.scene, cells).edges_near(of);
             // As soon as that is known: what comes takes the room of what is not kept.
             kept = kept_pieces(of, std::move(before.parts));
             std::vector<std::uint8_t> asked_cells = cells_along(of.is_near_change, of, cells);
