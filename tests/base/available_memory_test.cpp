@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vera/base/available_memory.h"
+#include "vera/base/held_memory.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <fstream>
+#include <memory>
 #include <stdexcept>
+#include <vector>
 
+#include "base/memory_is_watched.h"
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -60,6 +66,20 @@ TEST(AvailableMemory, IsLimitedToWhatIsLeftOfAGivenSize) {
     constexpr std::uint64_t large = std::uint64_t{1} << 30U;
     const MemoryLimit limit(large);
     EXPECT_LT(available_memory(), large) << "what is held already counts";
+}
+
+TEST(AvailableMemory, IsWhatIsFreedAsWellBeforeAnythingIsRefused) {
+    if (memory_is_watched())
+        GTEST_SKIP() << "a sanitizer keeps memory for itself";
+    constexpr std::size_t block = 50'000;
+    constexpr std::size_t blocks = 800;
+    std::vector<std::unique_ptr<std::vector<char>>> kept;
+    for (std::size_t i = 0; i <= blocks; ++i)
+        kept.push_back(std::make_unique<std::vector<char>>(block, 'a'));
+    for (std::size_t i = 0; i < blocks; ++i) // the last one lies behind all that are freed
+        kept[i].reset();
+    const MemoryLimit limit(held_memory() + (std::uint64_t{16} << 20U));
+    EXPECT_NO_THROW(require_memory(0x1p25, "twice what the limit leaves", "nothing"));
 }
 
 TEST(AvailableMemory, IsRequiredWithTheFiguresAndTheRemedy) {

@@ -115,6 +115,7 @@ void require_memory(double bytes, const std::string& what, const std::string& re
     if (const auto available = available_memory();
         !available || bytes <= static_cast<double>(*available))
         return;
+    spare_memory(); // also where the work that asks for it is small
     give_back_freed_memory();
     require_memory(bytes, available_memory(), what, remedy);
 }
